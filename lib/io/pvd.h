@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The list of frames and their times that ParaView opens.
+#ifndef VSC_IO_PVD_H
+#define VSC_IO_PVD_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+
+typedef struct vsc_pvd vsc_pvd;
+
+// A list that will be written to `file`, empty. With `keep_until` >= 0 (seconds) the frames of an
+// existing file whose times are below it (by more than 1e-9 s) are kept: that is how a resumed run
+// trims its series. A missing file is an empty list.
+vsc_status vsc_pvd_open(const char *file, double keep_until, vsc_pvd **pvd, vsc_error *error);
+
+// Appends a frame (time in seconds, file name relative to the PVD) and rewrites the list under a
+// temporary name, renamed: the file on disk is complete and valid at every moment.
+vsc_status vsc_pvd_add(vsc_pvd *pvd, double time, const char *frame, vsc_error *error);
+
+size_t vsc_pvd_count(const vsc_pvd *pvd);
+double vsc_pvd_time(const vsc_pvd *pvd, size_t frame);       // seconds
+const char *vsc_pvd_frame(const vsc_pvd *pvd, size_t frame); // file name, owned by the list
+
+void vsc_pvd_free(vsc_pvd *pvd);  // NULL is fine
+
+#endif

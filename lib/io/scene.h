@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The scene: one YAML file, values with units, read by libcyaml and udunits2.
+#ifndef VSC_IO_SCENE_H
+#define VSC_IO_SCENE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "model/definition.h"
+#include "model/fiber_def.h"
+
+enum { VSC_OUTPUT_ARRAYS = 16 };
+
+// What is written, and how often.
+typedef struct vsc_output_def {
+  double frame_interval;   // ms between VTU frames; default 10
+  bool double_precision;   // 64-bit floats in the frames; default false: 32
+  size_t array_count;      // arrays of the frames; 0: the default set
+  char arrays[VSC_OUTPUT_ARRAYS][VSC_NAME];
+  double signal_interval;  // ms between rows of signals.csv; default 1
+  size_t cavity_count;     // surfaces whose enclosed (capped) volume is a signal
+  char cavities[VSC_OUTPUT_ARRAYS][VSC_NAME];
+  double checkpoint_interval;  // ms between checkpoints; 0: only at the end; default 0
+} vsc_output_def;
+
+typedef struct vsc_scene {
+  char file[VSC_PATH];      // the scene file
+  char mesh_file[VSC_PATH]; // resolved against the scene file's folder
+  double mesh_unit;         // mm per unit of the mesh's coordinates
+  vsc_fiber_def fibers;     // its map file resolved likewise
+  vsc_definition definition;
+  vsc_output_def output;
+} vsc_scene;
+
+// Reads a scene file. `settings` (setting_count of them) are `key=value` texts that replace or add
+// values after the file is read: "time.end=0.4 s", "materials[0].axial.f=12 kPa". Fails with
+// VSC_INPUT and "file:line: key: what was expected, the nearest known key". On success the caller
+// owns *scene.
+vsc_status vsc_scene_read(const char *file, const char *const *settings, size_t setting_count,
+                          vsc_scene **scene, vsc_error *error);
+
+void vsc_scene_free(vsc_scene *scene);  // NULL is fine
+
+// Writes the scene as understood, every default filled in, as YAML that vsc_scene_read reads back to
+// the same scene. File names are written absolute.
+vsc_status vsc_scene_write(const vsc_scene *scene, const char *file, vsc_error *error);
+
+// Prints a commented template of every key with its default, unit and meaning to `stream`. It is
+// itself a valid scene once the mesh file exists.
+void vsc_scene_schema(FILE *stream);
+
+#endif

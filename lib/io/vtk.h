@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// VTK files behind plain C. The only door to VTK; no exception and no VTK message gets through it.
+#ifndef VSC_IO_VTK_H
+#define VSC_IO_VTK_H
+
+#include <stdbool.h>
+
+#include "mesh/image.h"
+#include "mesh/mesh.h"
+
+// Reads an unstructured grid from .vtu or legacy .vtk, in every encoding that VTK reads, and cleans
+// it (vsc_mesh_clean). Coordinates are multiplied by `unit` (mm per unit). Tets are kept, triangles
+// are kept as surface triangles, other cells are counted and ignored. Every numeric point array
+// comes as node data, every numeric cell array as tet data and as triangle data. VSC_INPUT with the
+// file's name for a missing, truncated, empty or foreign file. The caller owns *mesh.
+vsc_status vsc_vtk_read_mesh(const char *file, double unit, vsc_mesh **mesh, vsc_error *error);
+
+// Reads an image (.vti), origin, spacing and direction honoured, lengths multiplied by `unit`. Point
+// and cell arrays both come (cell arrays on the image of cell centres); a file that has both kinds
+// with data is read by its point arrays. The caller owns *image.
+vsc_status vsc_vtk_read_image(const char *file, double unit, vsc_image **image, vsc_error *error);
+
+// One array to write, borrowed for the call.
+typedef struct vsc_vtk_array {
+  const char *name;
+  int components;        // 1 or 3
+  const double *values;  // node_count or tet_count tuples
+  bool on_nodes;         // else on tets
+  bool integer;          // written as Int32
+} vsc_vtk_array;
+
+// Writes nodes, tets and arrays as .vtu: appended raw binary, zlib, UInt64 headers, Float32 or
+// (double_precision) Float64; to a temporary name in the same folder, renamed when complete.
+vsc_status vsc_vtk_write_mesh(const char *file, size_t node_count, const double *nodes,
+                              size_t tet_count, const uint32_t *tets, size_t triangle_count,
+                              const uint32_t *triangles, size_t array_count,
+                              const vsc_vtk_array *arrays, bool double_precision, vsc_error *error);
+
+// Writes an image with all its arrays as .vti, in the same way; arrays are Float32.
+vsc_status vsc_vtk_write_image(const char *file, const vsc_image *image, vsc_error *error);
+
+#endif

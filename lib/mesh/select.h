@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Named node sets and surfaces: how they are described, and the nodes and triangles they name.
+#ifndef VSC_MESH_SELECT_H
+#define VSC_MESH_SELECT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/text.h"
+#include "mesh/mesh.h"
+
+typedef enum vsc_select_kind {
+  VSC_SELECT_BOUNDARY,    // the whole boundary
+  VSC_SELECT_NODE_ARRAY,  // nodes whose value of a node array lies in [low, high]
+  VSC_SELECT_TRIANGLE_ARRAY,  // triangles of the file whose value of a cell array lies in [low, high]
+  VSC_SELECT_BOX,         // inside or on a box
+  VSC_SELECT_PLANE,       // within a distance of a plane
+  VSC_SELECT_SURFACE,     // the nodes of a surface that has a name of its own
+} vsc_select_kind;
+
+// Describes a set of nodes or, read as a surface, the boundary triangles all of whose nodes are in
+// that set (for VSC_SELECT_TRIANGLE_ARRAY: the boundary triangles that the file lists).
+typedef struct vsc_selector {
+  char name[VSC_NAME];   // what supports and loads call it
+  vsc_select_kind kind;
+  char array[VSC_NAME];  // NODE_ARRAY, TRIANGLE_ARRAY: the array; SURFACE: the surface
+  double low, high;      // NODE_ARRAY, TRIANGLE_ARRAY: values taken, both ends included
+  double box_low[3];     // BOX: mm
+  double box_high[3];    // BOX: mm
+  double point[3];       // PLANE: a point of it, mm
+  double normal[3];      // PLANE: its normal, any length
+  double tolerance;      // PLANE: distance from the plane that still counts, mm
+} vsc_selector;
+
+typedef struct vsc_node_set {
+  char name[VSC_NAME];
+  size_t count;
+  uint32_t *nodes;  // count, ascending, owned
+} vsc_node_set;
+
+typedef struct vsc_surface {
+  char name[VSC_NAME];
+  size_t count;
+  uint32_t *triangles;  // count x 3, turned so that the normal points out of the tissue; owned
+} vsc_surface;
+
+// The boundary of the mesh: faces that belong to one tet, turned outwards, in the order of their
+// tets. `boundary` is filled and owned by the caller.
+vsc_status vsc_boundary(const vsc_mesh *mesh, vsc_surface *boundary, vsc_error *error);
+
+// Finds the nodes that `selector` describes. `surfaces` (surface_count) are those that a selector
+// of kind SURFACE may name. An empty set is an error of status VSC_INPUT that says what was near.
+vsc_status vsc_select_nodes(const vsc_mesh *mesh, const vsc_selector *selector,
+                            const vsc_surface *surfaces, size_t surface_count, vsc_node_set *set,
+                            vsc_error *error);
+
+// Finds the boundary triangles that `selector` describes; none is an error.
+vsc_status vsc_select_surface(const vsc_mesh *mesh, const vsc_surface *boundary,
+                              const vsc_selector *selector, vsc_surface *surface, vsc_error *error);
+
+void vsc_node_set_free(vsc_node_set *set);        // frees the content
+void vsc_surface_free(vsc_surface *surface);      // frees the content
+
+#endif
