@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every rule that a definition must obey, with the key as the scene writes it.
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "model/definition.h"
+
+static const char boundary_name[] = "boundary";
+
+// Where the check is, and the first failure, after which further demands are not looked at.
+typedef struct checker {
+  char where[160];  // prefix of the keys: "materials[0]"
+  vsc_error *error;
+  vsc_status status;
+} checker;
+
+static void enter(checker *c, const char *list, size_t item, const char *rest)
+{
+  snprintf(c->where, sizeof c->where, "%s[%zu]%s", list, item, rest);
+}
+
+// Demands that `fine` holds for the number `value` (in `unit`) of `key`.
+static void need(checker *c, bool fine, const char *key, double value, const char *unit,
+                 const char *remedy)
+{
+  if (c->status != VSC_OK || fine) return;
+  c->status = vsc_fail(c->error, VSC_INPUT, "%s%s%s: %g%s%s: %s", c->where,
+                       c->where[0] != '\0' ? "." : "", key, value, unit[0] != '\0' ? " " : "", unit,
+                       remedy);
+}
+
+static void need_positive(checker *c, const char *key, double value, const char *unit,
+                          const char *remedy)
+{
+  need(c, value > 0 && isfinite(value), key, value, unit, remedy);
+}
+
+static void need_not_negative(checker *c, const char *key, double value, const char *unit)
+{
+  need(c, value >= 0 && isfinite(value), key, value, unit, "give a value of zero or more");
+}
+
+static void need_finite(checker *c, const char *key, double value, const char *unit)
+{
+  need(c, isfinite(value), key, value, unit, "give a finite value");
+}
+
+static void check_table(checker *c, const vsc_curve_def *curve)
+{
+  char key[64];
+  need(c, curve->point_count >= 2, "curve.times", (double)curve->point_count, "points",
+       "a table needs at least two");
+  for (size_t i = 0; c->status == VSC_OK && i < curve->point_count; i++) {
+    snprintf(key, sizeof key, "curve.times[%zu]", i);
+    need_finite(c, key, curve->times[i], "ms");
+    need(c, i == 0 || curve->times[i] > curve->times[i - 1], key, curve->times[i], "ms",
+         "times must rise from point to point");
+    snprintf(key, sizeof key, "curve.values[%zu]", i);
+    need_finite(c, key, curve->values[i], "");
+  }
+}
+
+static void check_curve(checker *c, const vsc_curve_def *curve)
+{
+  const bool smooth = curve->kind == VSC_CURVE_DOUBLE_HILL || curve->kind == VSC_CURVE_TANH_PAIR;
+  const bool lasting = curve->kind == VSC_CURVE_RAMP || curve->kind == VSC_CURVE_HALF_SINE ||
+                       curve->kind == VSC_CURVE_TANH_PAIR;
+  need_finite(c, "curve.start", curve->start, "ms");
+  if (lasting) {
+    need_positive(c, "curve.duration", curve->duration, "ms", "give a time above zero");
+  }
+  if (smooth) {
+    need_positive(c, "curve.rise", curve->rise, "ms", "give a time above zero");
+    need_positive(c, "curve.fall", curve->fall, "ms", "give a time above zero");
+  }
+  if (curve->kind == VSC_CURVE_DOUBLE_HILL) {
+    need_positive(c, "curve.rise_power", curve->rise_power, "", "give a power above zero");
+    need_positive(c, "curve.fall_power", curve->fall_power, "", "give a power above zero");
+  }
+  need_not_negative(c, "curve.period", curve->period, "ms");
+  need(c, curve->period == 0 || !lasting || curve->duration <= curve->period, "curve.period",
+       curve->period, "ms", "shorter than the duration: give a longer period, or 0 ms for none");
+  if (curve->kind == VSC_CURVE_TABLE) check_table(c, curve);
+}
+
+static void check_active(checker *c, size_t item, const vsc_active_def *active)
+{
+  enter(c, "materials", item, ".active");
+  if (active->kind == VSC_ACTIVE_NONE) return;
+  if (active->kind == VSC_ACTIVE_SPRING) {
+    need_not_negative(c, "stiffness", active->stiffness, "kPa");
+    need(c, active->rest_stretch > 0 && active->rest_stretch <= 1, "rest_stretch",
+         active->rest_stretch, "", "give a stretch above 0 and up to 1");
+  } else {
+    need_not_negative(c, "tension", active->tension, "kPa");
+  }
+  need_finite(c, "delay", active->delay, "ms");
+  need_positive(c, "delay_unit", active->delay_unit, "ms", "give a time above zero");
+  check_curve(c, &active->curve);
+}
+
+static void check_material(checker *c, size_t item, const vsc_material_def *material)
+{
+  static const char *const axial[] = {"axial.f", "axial.s", "axial.n"};
+  static const char *const angular[] = {"angular.fs", "angular.sn", "angular.nf"};
+  static const char *const damping[] = {"damping.f", "damping.s", "damping.n"};
+  enter(c, "materials", item, "");
+  need_positive(c, "density", material->density, "mg/mm3", "give a density above zero");
+  for (int a = 0; a < 3; a++) {
+    need_not_negative(c, axial[a], material->axial[a], "kPa");
+    need_not_negative(c, angular[a], material->angular[a], "kPa");
+    need_not_negative(c, damping[a], material->damping[a], "kPa ms");
+  }
+  need_positive(c, "volume_modulus", material->volume_modulus, "kPa",
+                "give a modulus above zero, say 10 to 100 times the axial moduli");
+  need_not_negative(c, "stabilization", material->stabilization, "kPa");
+  check_active(c, item, &material->active);
+}
+
+static bool has_region(const vsc_material_def *material, int region)
+{
+  for (size_t r = 0; r < material->region_count; r++)
+    if (material->regions[r] == region) return true;
+  return false;
+}
+
+// Each region belongs to one material, and one material at most takes the rest.
+static void check_regions(checker *c, const vsc_material_def *materials, size_t item)
+{
+  const vsc_material_def *material = &materials[item];
+  char remedy[VSC_NAME + 80];
+  enter(c, "materials", item, "");
+  for (size_t other = 0; other < item; other++) {
+    snprintf(remedy, sizeof remedy, "belongs to material %s already; leave it in one of the two",
+             materials[other].name);
+    for (size_t r = 0; r < material->region_count; r++)
+      need(c, !has_region(&materials[other], material->regions[r]), "regions", material->regions[r],
+           "", remedy);
+    snprintf(remedy, sizeof remedy, "material %s takes the unnamed regions already; list regions",
+             materials[other].name);
+    need(c, material->region_count > 0 || materials[other].region_count > 0, "regions", 0,
+         "regions listed", remedy);
+  }
+}
+
+static void check_finite3(checker *c, const char *key, const double value[3], const char *unit)
+{
+  for (int i = 0; i < 3; i++) need_finite(c, key, value[i], unit);
+}
+
+static void check_selector(checker *c, const vsc_selector *selector)
+{
+  switch (selector->kind) {
+    case VSC_SELECT_NODE_ARRAY:
+    case VSC_SELECT_TRIANGLE_ARRAY:
+      need(c, selector->low <= selector->high, "range", selector->low, "",
+           "the first value must not be above the second");
+      break;
+    case VSC_SELECT_BOX:
+      for (int i = 0; i < 3; i++)
+        need(c, selector->box_low[i] <= selector->box_high[i], "box.low", selector->box_low[i],
+             "mm", "must not be above the same coordinate of box.high");
+      break;
+    case VSC_SELECT_PLANE:
+      check_finite3(c, "plane.point", selector->point, "mm");
+      check_finite3(c, "plane.normal", selector->normal, "");
+      need(c, selector->normal[0] != 0 || selector->normal[1] != 0 || selector->normal[2] != 0,
+           "plane.normal", 0, "", "give a vector that is not zero");
+      need_not_negative(c, "plane.tolerance", selector->tolerance, "mm");
+      break;
+    default: break;
+  }
+}
+
+// A name that `key` uses must be one of the selectors' (or the whole boundary's, for surfaces).
+static void need_known(checker *c, const char *key, const char *name, const vsc_selector *selectors,
+                       size_t count, bool surface)
+{
+  const char *words[65];
+  size_t known = 0;
+  if (surface) words[known++] = boundary_name;
+  for (size_t i = 0; i < count; i++)
+    if (known < 65) words[known++] = selectors[i].name;
+  for (size_t i = 0; i < count; i++)
+    if (strcmp(name, selectors[i].name) == 0) return;
+  if (c->status != VSC_OK || (surface && strcmp(name, boundary_name) == 0)) return;
+  const char *nearest = vsc_nearest(name, words, known);
+  c->status = vsc_fail(c->error, VSC_INPUT, "%s.%s: no %s is named \"%s\"%s%s; define it under %s",
+                       c->where, key, surface ? "surface" : "node set", name,
+                       nearest != NULL ? ", the nearest is " : "", nearest != NULL ? nearest : "",
+                       surface ? "surfaces" : "node_sets");
+}
+
+static void check_selectors(checker *c, const char *list, const vsc_selector *selectors,
+                            size_t count)
+{
+  for (size_t i = 0; i < count; i++) {
+    enter(c, list, i, "");
+    if (c->status == VSC_OK && selectors[i].name[0] == '\0')
+      c->status = vsc_fail(c->error, VSC_INPUT, "%s.name: empty: give it a name", c->where);
+    for (size_t j = 0; c->status == VSC_OK && j < i; j++)
+      if (strcmp(selectors[i].name, selectors[j].name) == 0)
+        c->status = vsc_fail(c->error, VSC_INPUT,
+                             "%s.name: \"%s\" names %s[%zu] already: choose another name", c->where,
+                             selectors[i].name, list, j);
+    check_selector(c, &selectors[i]);
+  }
+}
+
+static void check_loads(checker *c, const vsc_definition *d)
+{
+  for (size_t i = 0; i < d->support_count; i++) {
+    const int *held = d->supports[i].held;
+    enter(c, "supports", i, "");
+    need_known(c, "set", d->supports[i].set, d->sets, d->set_count, false);
+    need(c, held[0] || held[1] || held[2], "held", 0, "directions",
+         "name at least one of x, y, z, or leave the support out");
+  }
+  for (size_t i = 0; i < d->pressure_count; i++) {
+    enter(c, "pressures", i, "");
+    need_known(c, "surface", d->pressures[i].surface, d->surfaces, d->surface_count, true);
+    need_finite(c, "peak", d->pressures[i].peak, "kPa");
+    check_curve(c, &d->pressures[i].curve);
+  }
+}
+
+vsc_status vsc_definition_check(const vsc_definition *d, vsc_error *error)
+{
+  checker c = {.error = error, .status = VSC_OK};
+  need(&c, d->material_count > 0, "materials", 0, "given", "describe at least one material");
+  for (size_t i = 0; i < d->material_count; i++) check_material(&c, i, &d->materials[i]);
+  for (size_t i = 0; i < d->material_count; i++) check_regions(&c, d->materials, i);
+  check_selectors(&c, "surfaces", d->surfaces, d->surface_count);
+  check_selectors(&c, "node_sets", d->sets, d->set_count);
+  for (size_t i = 0; i < d->set_count; i++) {
+    enter(&c, "node_sets", i, "");
+    if (d->sets[i].kind == VSC_SELECT_SURFACE)
+      need_known(&c, "surface", d->sets[i].array, d->surfaces, d->surface_count, true);
+  }
+  check_loads(&c, d);
+  c.where[0] = '\0';
+  check_finite3(&c, "gravity", d->gravity, "mm/ms2");
+  need_positive(&c, "time.end", d->end_time, "ms", "give a time above zero");
+  need_not_negative(&c, "time.step", d->step, "ms");
+  need(&c, d->safety > 0 && d->safety <= 1, "time.safety", d->safety, "",
+       "give a fraction above 0 and up to 1");
+  return c.status;
+}

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/fiber_def.h"
+
+#include <math.h>
+
+static const double degree = M_PI / 180;
+
+vsc_fiber_def vsc_default_fiber(void)
+{
+  vsc_fiber_def fiber = {
+      .source = VSC_FIBER_NONE,
+      .map = {.scale = degree, .azimuth_sense = 1, .elevation_sense = 1, .image_axes = true,
+              .length_unit = 1},
+      .endo_angle = 60 * degree,
+      .epi_angle = -60 * degree,
+      .long_axis = {0, 0, 1},
+      .pitch = 30 * degree,
+      .seed = 1,
+  };
+  vsc_copy_name(fiber.map.azimuth, "azimuth");
+  vsc_copy_name(fiber.map.elevation, "elevation");
+  vsc_copy_name(fiber.fiber_array, "fiber");
+  vsc_copy_name(fiber.sheet_array, "sheet");
+  return fiber;
+}
