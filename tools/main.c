@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The program: `viscera VERB ...` goes to the verb's own file.
+#include <errno.h>
+#include <limits.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/status.h"
+#include "base/text.h"
+#include "tools/verbs.h"
+
+typedef struct verb {
+  const char *name;
+  int (*run)(int argc, char **argv);
+  bool threads;      // computes with several threads
+  const char *help;  // what it does, in one line
+} verb;
+
+static int run_plot(int argc, char **argv);
+
+static const verb verbs[] = {
+    {"run", vsc_verb_run, true, "simulate a scene; leaves frames, signals, a summary"},
+    {"check", vsc_verb_check, true,
+     "say what a scene would do, what it would cost, what looks odd"},
+    {"info", vsc_verb_info, false, "say what meshes, images, series, checkpoints or scenes hold"},
+    {"compare", vsc_verb_compare, false, "error norms between two meshes or two series"},
+    {"schema", vsc_verb_schema, false, "print a commented template of everything a scene can say"},
+    {"generate", vsc_verb_generate, false, "make the meshes and angle maps that ship with viscera"},
+    {"plot", run_plot, false, "draw the graphs and pictures of a simulation's results"},
+};
+
+enum { VERBS = sizeof verbs / sizeof verbs[0] };
+
+static void print_help(FILE *stream)
+{
+  fputs(
+      "Usage: viscera VERB [OPTION]... [FILE]...\n"
+      "Heart and liver tissue on element frames.\n\n",
+      stream);
+  for (int i = 0; i < VERBS; i++) fprintf(stream, "  %-10s%s\n", verbs[i].name, verbs[i].help);
+  fputs(
+      "\n"
+      "  -h, --help      this text; `viscera VERB --help` tells more, with examples\n"
+      "      --version   the version\n\n"
+      "Examples:\n"
+      "  viscera check data/beat.yaml           ask before running\n"
+      "  viscera run data/beat.yaml -o beat     simulate into the folder beat/\n"
+      "  viscera plot beat                      draw beat/beat.png\n\n"
+      "Results go to stdout, messages to stderr. Exit codes: 0 good, 2 the user's input,\n"
+      "3 numerical failure, 4 system.\n",
+      stream);
+}
+
+// libgomp reads its variables before main starts, and by default its idle threads spin: on a busy
+// machine that costs several times the CPU. So a program that is going to use threads starts itself
+// again with the passive policy. A user who has set the policy keeps it; binding stays the user's.
+static void restart_with_passive_threads(char **argv)
+{
+  if (getenv("OMP_WAIT_POLICY") != NULL) return;
+  if (setenv("OMP_WAIT_POLICY", "PASSIVE", 1) != 0) return;
+  execv("/proc/self/exe", argv);
+  // Without /proc the program runs all the same, only less politely.
+}
+
+// Graphs need PLplot and cairo, which a simulation should not load: `plot` is a program of its own
+// that lies beside this one, or in the PATH.
+static int run_plot(int argc, char **argv)
+{
+  (void)argc;
+  char path[PATH_MAX];
+  const ssize_t length = readlink("/proc/self/exe", path, sizeof path - sizeof "viscera-plot");
+  if (length > 0) {
+    path[length] = '\0';
+    strcpy(strrchr(path, '/') + 1, "viscera-plot");
+    execv(path, argv);
+  }
+  execvp("viscera-plot", argv);
+  fprintf(
+      stderr,
+      "viscera: the program viscera-plot can't be started (%s): it is built where PLplot and cairo "
+      "are installed, and belongs beside viscera or in the PATH\n",
+      strerror(errno));
+  return VSC_SYSTEM;
+}
+
+static const verb *find_verb(const char *name)
+{
+  for (int i = 0; i < VERBS; i++)
+    if (strcmp(name, verbs[i].name) == 0) return &verbs[i];
+  const char *names[VERBS];
+  for (int i = 0; i < VERBS; i++) names[i] = verbs[i].name;
+  const char *near = vsc_nearest(name, names, VERBS);
+  if (near != NULL)
+    fprintf(stderr, "viscera: unknown verb '%s', did you mean '%s'?\n", name, near);
+  else
+    fprintf(stderr, "viscera: unknown verb '%s', `viscera --help` lists them\n", name);
+  return NULL;
+}
+
+// getopt begins its messages with argv[0]: let them read like ours.
+static int run_verb(const verb *verb, int argc, char **argv)
+{
+  static char name[64];
+  snprintf(name, sizeof name, "viscera: %s", verb->name);
+  argv[0] = name;
+  return verb->run(argc, argv);
+}
+
+// A full disk shows only when the last of stdout is written.
+static int finish(int code)
+{
+  if (fflush(stdout) == 0 && !ferror(stdout)) return code;
+  fprintf(stderr, "viscera: writing the output failed: %s\n", strerror(errno));
+  return code != VSC_OK ? code : VSC_SYSTEM;
+}
+
+int main(int argc, char **argv)
+{
+  if (argc < 2) {
+    print_help(stderr);
+    return VSC_INPUT;
+  }
+  const char *word = argv[1];
+  if (strcmp(word, "--version") == 0) {
+    puts("viscera " VISCERA_VERSION);
+    return finish(VSC_OK);
+  }
+  if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 ||
+      (strcmp(word, "help") == 0 && argc == 2)) {
+    print_help(stdout);
+    return finish(VSC_OK);
+  }
+  char *help_argv[] = {argv[1], "--help", NULL};
+  const bool help = strcmp(word, "help") == 0;  // `viscera help run` is `viscera run --help`
+  const verb *verb = find_verb(help ? argv[2] : word);
+  if (verb == NULL) return VSC_INPUT;
+  if (help) return finish(run_verb(verb, 2, help_argv));
+  if (verb->threads) restart_with_passive_threads(argv);
+  return finish(run_verb(verb, argc - 1, argv + 1));
+}
