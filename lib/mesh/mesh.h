@@ -50,7 +50,8 @@ typedef struct vsc_mesh {
   vsc_mesh_report report;
 } vsc_mesh;
 
-// A mesh with room for the given counts, all zero, sources counting up; NULL when memory is short.
+// A mesh with room for the given counts, all zero, sources counting up; NULL when memory is short
+// (2^32 nodes or 2^31 tets are always too many).
 vsc_mesh *vsc_mesh_create(size_t nodes, size_t tets, size_t triangles);
 
 // Releases a mesh and its arrays; NULL is fine.
@@ -60,17 +61,22 @@ void vsc_mesh_free(vsc_mesh *mesh);
 // and valid until the next append; NULL when memory is short.
 vsc_array *vsc_arrays_add(vsc_arrays *arrays, const char *name, int components, size_t tuples);
 
+// Releases the arrays' content and leaves an empty list.
+void vsc_arrays_free(vsc_arrays *arrays);
+
 // The array of that name, or NULL.
 const vsc_array *vsc_arrays_find(const vsc_arrays *arrays, const char *name);
 
-// ", known arrays: a, b, c" and the nearest of them to `name`, for a message about a missing array.
+// ", known arrays: a, b, c; did you mean b?", for a message about the missing array `name`.
 // Writes at most `size` bytes with the terminating zero.
 void vsc_arrays_hint(const vsc_arrays *arrays, const char *name, char *text, size_t size);
 
-// Makes a raw mesh fit for use: refuses node numbers out of range, non-finite nodes, repeated nodes
-// and degenerate tets (|volume| < 1e-12 of the cube of the longest edge), naming up to five ids in
-// the file's numbering; turns left-handed tets; drops nodes that no tet uses, with their data, and
-// triangles that touch such a node; fills the report. `name` (a file name) begins each message.
+// Makes a raw mesh fit for use: refuses (VSC_INPUT) a mesh without tets, node numbers out of range,
+// non-finite nodes of tets, repeated nodes and degenerate tets (|volume| < 1e-12 of the cube of the
+// longest edge), naming up to five ids in the file's numbering; turns left-handed tets; drops nodes
+// that no tet uses, with their data, and triangles that touch such a node, with theirs; fills the
+// report (file_nodes and file_cells only where they are 0). `name` (a file name) begins each
+// message. After a failure the mesh is good for vsc_mesh_free only.
 vsc_status vsc_mesh_clean(vsc_mesh *mesh, const char *name, vsc_error *error);
 
 // A clean mesh from a caller's arrays: nodes (node_count x 3, mm), tets (tet_count x 4). Both are

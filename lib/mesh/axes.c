@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/axes.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "base/vec3.h"
+
+static const double SHORTEST = 1e-6;                    // a fibre vector's length
+static const double SINE_OF_1_DEGREE = 0.0174524064372835;
+
+vsc_axes *vsc_axes_create(size_t count)
+{
+  vsc_axes *axes;
+  if (!VSC_NEW(axes, 1)) return NULL;
+  axes->count = count;
+  if (count > SIZE_MAX / 9 || !VSC_NEW(axes->frames, 9 * count) || !VSC_NEW(axes->known, count)) {
+    vsc_axes_free(axes);
+    return NULL;
+  }
+  for (size_t i = 0; i < count; i++)
+    for (int axis = 0; axis < 3; axis++) axes->frames[9 * i + 4 * axis] = 1;
+  return axes;
+}
+
+void vsc_axes_free(vsc_axes *axes)
+{
+  if (axes == NULL) return;
+  vsc_free(axes->frames);
+  vsc_free(axes->known);
+  vsc_free(axes);
+}
+
+// The unit vector along `vector`, whatever its magnitude; returns its length. Where that is 0 or
+// NaN (a component is not finite) `unit` means nothing.
+static double direction_of(const double vector[3], double unit[3])
+{
+  const double largest = fmax(fabs(vector[0]), fmax(fabs(vector[1]), fabs(vector[2])));
+  if (largest == 0) return 0;
+  for (int i = 0; i < 3; i++) unit[i] = vector[i] / largest;
+  return largest * vsc_normalize(unit);
+}
+
+// The part of `hint` orthogonal to the unit vector `f`, normalised; 0 when they are within 1 degree.
+static int orthogonal_part(const double hint[3], const double f[3], double s[3])
+{
+  double unit[3], across[3];
+  if (!(direction_of(hint, unit) > 0)) return 0;
+  vsc_cross(f, unit, across);
+  if (vsc_norm(across) < SINE_OF_1_DEGREE) return 0;
+  memcpy(s, unit, sizeof unit);
+  for (int pass = 0; pass < 2; pass++) {
+    const double along = vsc_dot(s, f);
+    for (int i = 0; i < 3; i++) s[i] -= along * f[i];
+    vsc_normalize(s);
+  }
+  return 1;
+}
+
+int vsc_axes_complete(const double fiber[3], const double *sheet, double frame[9])
+{
+  double f[3], s[3], n[3];
+  if (!(direction_of(fiber, f) >= SHORTEST)) return 0;
+  if (sheet == NULL || !orthogonal_part(sheet, f, s)) {
+    double global[3] = {0};
+    int least = 0;
+    for (int axis = 1; axis < 3; axis++)
+      if (fabs(f[axis]) < fabs(f[least])) least = axis;
+    global[least] = 1;
+    orthogonal_part(global, f, s);
+  }
+  vsc_cross(f, s, n);
+  memcpy(frame, f, sizeof f);
+  memcpy(frame + 3, s, sizeof s);
+  memcpy(frame + 6, n, sizeof n);
+  return 1;
+}
+
+int vsc_axes_valid(const vsc_axes *axes)
+{
+  for (size_t i = 0; i < axes->count; i++) {
+    const double *f = axes->frames + 9 * i;
+    for (int a = 0; a < 3; a++)
+      for (int b = a; b < 3; b++)
+        if (!(fabs(vsc_dot(f + 3 * a, f + 3 * b) - (a == b)) <= 1e-9)) return 0;
+    double across[3];
+    vsc_cross(f, f + 3, across);
+    if (!(vsc_dot(across, f + 6) > 0)) return 0;
+  }
+  return 1;
+}
