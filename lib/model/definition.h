@@ -40,7 +40,8 @@ typedef enum vsc_active_kind {
   VSC_ACTIVE_NONE,
   VSC_ACTIVE_SPRING,   // the fibre spring itself changes: E_f(t) = E_f + a (stiffness - E_f),
                        // rest stretch r(t) = 1 - a (1 - rest_stretch)
-  VSC_ACTIVE_TENSION,  // a nominal tension T(t) = a tension along the deformed fibre, per area at rest
+  VSC_ACTIVE_TENSION,  // a tension T(t) = a tension along the fibre, as second Piola-Kirchhoff stress:
+                       // S += T f0 f0 (Land et al. 2015), that is P_f += T g_f
 } vsc_active_kind;
 
 // Activation a = amplitude . curve(t - delay) of an element, 0 at rest and 1 at the peak.

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/hash.h"
+#include "base/mem.h"
+#include "model/model.h"
+#include "model/patches.h"
+#include "model/terms.h"
+
+static const vsc_array *find_tet_array(const vsc_mesh *mesh, const char *name, const char *key,
+                                       vsc_error *error)
+{
+  const vsc_array *array = vsc_arrays_find(&mesh->tet_data, name);
+  if (array == NULL || array->components != 1) {
+    char hint[256];
+    vsc_arrays_hint(&mesh->tet_data, name, hint, sizeof hint);
+    vsc_fail(error, VSC_INPUT, "%s: the mesh has no cell array '%s' with one number per element%s", key,
+             name, hint);
+    return NULL;
+  }
+  return array;
+}
+
+// The material whose list of regions holds `region`; else the one without a list; else -1.
+static int material_of_region(const vsc_definition *definition, double region)
+{
+  int rest = -1;
+  for (size_t m = 0; m < definition->material_count; m++) {
+    const vsc_material_def *material = &definition->materials[m];
+    if (material->region_count == 0) rest = (int)m;
+    for (size_t r = 0; r < material->region_count; r++)
+      if (region == material->regions[r]) return (int)m;
+  }
+  return rest;
+}
+
+static vsc_status assign_materials(const vsc_mesh *mesh, const vsc_definition *definition,
+                                   uint32_t *material_of, vsc_error *error)
+{
+  const vsc_array *regions = NULL;
+  if (definition->region_array[0] != '\0') {
+    regions = find_tet_array(mesh, definition->region_array, "mesh.region_array", error);
+    if (regions == NULL) return VSC_INPUT;
+  }
+  for (size_t t = 0; t < mesh->tet_count; t++) {
+    const double region = regions ? regions->values[t] : 0;
+    const int material = material_of_region(definition, region);
+    if (material < 0)
+      return vsc_fail(error, VSC_INPUT,
+                      "materials: element %u has region %g, which no material names: add the region to a "
+                      "material's `regions` or give one material without `regions`",
+                      mesh->tet_source[t], region);
+    material_of[t] = (uint32_t)material;
+  }
+  return VSC_OK;
+}
+
+static vsc_status copy_material(const vsc_material_def *def, const vsc_definition *definition,
+                                vsc_material *material, vsc_error *error)
+{
+  vsc_copy_name(material->name, def->name);
+  material->density = def->density;
+  memcpy(material->axial, def->axial, sizeof material->axial);
+  memcpy(material->angular, def->angular, sizeof material->angular);
+  memcpy(material->damping, def->damping, sizeof material->damping);
+  material->volume_modulus = def->volume_modulus;
+  material->element_modulus =
+      definition->volume == VSC_VOLUME_NODAL ? def->stabilization : def->volume_modulus;
+  material->active = def->active.kind;
+  material->active_stiffness = def->active.stiffness;
+  material->rest_stretch = def->active.rest_stretch;
+  material->tension = def->active.tension;
+  material->delay = def->active.delay;
+  if (def->active.kind == VSC_ACTIVE_NONE) return VSC_OK;
+  return vsc_curve_build(&def->active.curve, definition->end_time, &material->curve, error);
+}
+
+static vsc_status build_materials(const vsc_definition *definition, vsc_model *model, vsc_error *error)
+{
+  model->material_count = definition->material_count;
+  if (!VSC_NEW(model->materials, model->material_count)) return vsc_fail_memory(error, "materials");
+  for (size_t m = 0; m < model->material_count; m++) {
+    const vsc_status status =
+        copy_material(&definition->materials[m], definition, &model->materials[m], error);
+    if (status != VSC_OK) return status;
+    const vsc_material *material = &model->materials[m];
+    for (int a = 0; a < 3; a++)
+      if (material->damping[a] > 0) model->terms.damping = true;
+    if (material->active == VSC_ACTIVE_NONE) continue;
+    if (model->terms.active != VSC_ACTIVE_NONE && model->terms.active != material->active)
+      return vsc_fail(error, VSC_INPUT,
+                      "materials[%zu].active.kind: a scene has active springs or active tension, not both; "
+                      "use one kind in all materials", m);
+    model->terms.active = material->active;
+  }
+  model->terms.nodal_volume = definition->volume == VSC_VOLUME_NODAL;
+  return VSC_OK;
+}
+
+// The patch of each pack, to find a slot's material.
+static void count_materials(vsc_model *model)
+{
+  for (size_t p = 0; p < model->patch_count; p++) {
+    const vsc_patch *patch = &model->patches[p];
+    vsc_material *material = &model->materials[patch->material];
+    for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++)
+      for (int l = 0; l < VSC_WIDTH; l++) {
+        if (model->mesh_tet[VSC_WIDTH * k + l] == VSC_NO_TET) continue;
+        material->element_count++;
+        material->volume += model->packs[k].V[l];
+      }
+  }
+}
+
+static uint64_t hash_curve(uint64_t hash, const vsc_curve *curve)
+{
+  hash = vsc_hash(hash, &curve->period, sizeof curve->period);
+  return curve->values ? vsc_hash(hash, curve->values, (curve->intervals + 1) * sizeof(double)) : hash;
+}
+
+static void hash_model(vsc_model *model)
+{
+  const size_t slots = VSC_WIDTH * model->pack_count;
+  uint64_t hash = vsc_hash(VSC_HASH_START, model->packs, model->pack_count * sizeof *model->packs);
+  hash = vsc_hash(hash, model->inverse_mass, 4 * model->node_count * sizeof(double));
+  hash = vsc_hash(hash, model->rest, 4 * model->node_count * sizeof(double));
+  if (model->amplitude) hash = vsc_hash(hash, model->amplitude, slots * sizeof(double));
+  if (model->delay) hash = vsc_hash(hash, model->delay, slots * sizeof(double));
+  for (size_t m = 0; m < model->material_count; m++) {
+    vsc_material plain = model->materials[m];
+    memset(plain.name, 0, sizeof plain.name);
+    hash = hash_curve(hash, &plain.curve);
+    memset(&plain.curve, 0, sizeof plain.curve);
+    hash = vsc_hash(hash, &plain.density, sizeof plain - offsetof(vsc_material, density));
+  }
+  for (size_t p = 0; p < model->pressure_count; p++) {
+    const vsc_pressure *load = &model->pressures[p];
+    hash = vsc_hash(hash, load->triangles, 3 * load->triangle_count * sizeof(uint32_t));
+    hash = hash_curve(vsc_hash(hash, &load->peak, sizeof load->peak), &load->curve);
+  }
+  hash = vsc_hash(hash, model->gravity, sizeof model->gravity);
+  hash = vsc_hash(hash, &model->step, sizeof model->step);
+  model->hash = vsc_hash(hash, &model->safety, sizeof model->safety);
+}
+
+static vsc_status check_fibres(const vsc_model *model, vsc_error *error)
+{
+  for (size_t slot = 0; slot < VSC_WIDTH * model->pack_count; slot++)
+    if (model->known[slot]) return VSC_OK;
+  if (model->terms.active == VSC_ACTIVE_NONE) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT,
+                  "fibers: a material is active but no element has a fibre, so nothing would contract; choose "
+                  "fibers.source (map, arrays, helix, constant, ...)");
+}
+
+static vsc_status build(const vsc_mesh *mesh, const vsc_axes *axes, const vsc_definition *definition,
+                        uint32_t *material_of, vsc_model *model, vsc_error *error)
+{
+  model->end_time = definition->end_time;
+  model->step = definition->step;
+  model->safety = definition->safety;
+  vsc_status status = assign_materials(mesh, definition, material_of, error);
+  if (status == VSC_OK) status = build_materials(definition, model, error);
+  if (status == VSC_OK) status = vsc_patches_build(mesh, axes, material_of, model, error);
+  if (status != VSC_OK) return status;
+  count_materials(model);
+  status = check_fibres(model, error);
+  if (status == VSC_OK) status = vsc_terms_activation(mesh, definition, model, error);
+  if (status == VSC_OK) status = vsc_terms_masses(mesh, model, error);
+  if (status == VSC_OK) status = vsc_terms_volume_groups(model, error);
+  if (status == VSC_OK) status = vsc_terms_selections(mesh, definition, model, error);
+  if (status == VSC_OK) status = vsc_terms_supports(definition, model, error);
+  if (status == VSC_OK) status = vsc_terms_loads(definition, model, error);
+  if (status == VSC_OK) hash_model(model);
+  return status;
+}
+
+vsc_status vsc_model_build(const vsc_mesh *mesh, const vsc_axes *axes,
+                           const vsc_definition *definition, vsc_model **model, vsc_error *error)
+{
+  *model = NULL;
+  vsc_status status = vsc_definition_check(definition, error);
+  if (status != VSC_OK) return status;
+  if (axes != NULL && axes->count != mesh->tet_count)
+    return vsc_fail(error, VSC_INPUT, "fibers: axes of %zu elements for a mesh of %zu; give one frame per element",
+                    axes->count, mesh->tet_count);
+  vsc_model *built;
+  uint32_t *material_of;
+  if (!VSC_NEW(built, 1)) return vsc_fail_memory(error, "the model");
+  if (VSC_NEW(material_of, mesh->tet_count))
+    status = build(mesh, axes, definition, material_of, built, error);
+  else
+    status = vsc_fail_memory(error, "the model");
+  vsc_free(material_of);
+  if (status != VSC_OK) {
+    vsc_model_free(built);
+    return status;
+  }
+  *model = built;
+  return VSC_OK;
+}

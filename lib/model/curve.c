@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/curve.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_spline.h>
+#include <math.h>
+
+#include "base/mem.h"
+
+enum { INTERVALS = 8192 };
+
+static double analytic_value(const vsc_curve_def *d, double time)
+{
+  const double t = time - d->start;
+  switch (d->kind) {
+    case VSC_CURVE_RAMP:
+      return fmin(fmax(t / d->duration, 0), 1);
+    case VSC_CURVE_HALF_SINE:
+      return t > 0 && t < d->duration ? sin(M_PI * t / d->duration) : 0;
+    case VSC_CURVE_DOUBLE_HILL: {
+      if (t <= 0) return 0;
+      const double rise = pow(t / d->rise, d->rise_power);
+      const double fall = pow(t / d->fall, d->fall_power);
+      return rise / (1 + rise) / (1 + fall);
+    }
+    case VSC_CURVE_TANH_PAIR:
+      return 0.25 * (1 + tanh(t / d->rise)) * (1 - tanh((t - d->duration) / d->fall));
+    case VSC_CURVE_CONSTANT:
+    case VSC_CURVE_TABLE:
+      break;
+  }
+  return 1;
+}
+
+// Fills the table from given points by a monotone spline (Steffen 1990).
+static vsc_status tabulate_points(const vsc_curve_def *d, vsc_curve *curve, vsc_error *error)
+{
+  for (size_t k = 1; k < d->point_count; k++)
+    if (!(d->times[k] > d->times[k - 1]))
+      return vsc_fail(error, VSC_INPUT, "curve table: time %g ms does not come after %g ms; sort the rows by time",
+                      d->times[k], d->times[k - 1]);
+  const size_t n = d->point_count;
+  const gsl_interp_type *type = n > 2 ? gsl_interp_steffen : gsl_interp_linear;
+  gsl_set_error_handler_off();
+  gsl_spline *spline = gsl_spline_alloc(type, n);
+  if (spline == NULL || gsl_spline_init(spline, d->times, d->values, n) != GSL_SUCCESS) {
+    gsl_spline_free(spline);
+    return vsc_fail(error, VSC_INPUT, "curve table: %zu points make no curve; give at least 2", n);
+  }
+  for (size_t k = 0; k <= curve->intervals; k++) {
+    const double time = curve->span * (double)k / (double)curve->intervals;
+    const double inside = fmin(fmax(time, d->times[0]), d->times[n - 1]);
+    curve->values[k] = gsl_spline_eval(spline, inside, NULL);
+  }
+  gsl_spline_free(spline);
+  return VSC_OK;
+}
+
+vsc_status vsc_curve_build(const vsc_curve_def *d, double end_time, vsc_curve *curve, vsc_error *error)
+{
+  *curve = (vsc_curve){.period = d->period, .span = d->period > 0 ? d->period : end_time};
+  curve->intervals = d->kind == VSC_CURVE_CONSTANT ? 1 : INTERVALS;
+  if (!VSC_NEW(curve->values, curve->intervals + 1)) return vsc_fail_memory(error, "a curve");
+  if (d->kind == VSC_CURVE_TABLE) return tabulate_points(d, curve, error);
+  for (size_t k = 0; k <= curve->intervals; k++)
+    curve->values[k] = analytic_value(d, curve->span * (double)k / (double)curve->intervals);
+  const double peak = vsc_curve_peak(curve);
+  if (d->kind == VSC_CURVE_DOUBLE_HILL && peak > 0)
+    for (size_t k = 0; k <= curve->intervals; k++) curve->values[k] /= peak;
+  return VSC_OK;
+}
+
+void vsc_curve_free(vsc_curve *curve)
+{
+  vsc_free(curve->values);
+  *curve = (vsc_curve){0};
+}
+
+double vsc_curve_value(const vsc_curve *curve, double time)
+{
+  if (!(time > 0)) return curve->values[0];
+  const double local = curve->period > 0 ? fmod(time, curve->period) : fmin(time, curve->span);
+  const double place = local / curve->span * (double)curve->intervals;
+  size_t k = (size_t)place;
+  if (k >= curve->intervals) k = curve->intervals - 1;
+  const double part = place - (double)k;
+  return curve->values[k] + part * (curve->values[k + 1] - curve->values[k]);
+}
+
+double vsc_curve_peak(const vsc_curve *curve)
+{
+  double peak = curve->values[0];
+  for (size_t k = 1; k <= curve->intervals; k++) peak = fmax(peak, curve->values[k]);
+  return peak;
+}

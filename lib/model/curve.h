@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A curve of time, tabulated once so that the step only interpolates.
+#ifndef VSC_MODEL_CURVE_H
+#define VSC_MODEL_CURVE_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+#include "model/definition.h"
+
+// Values at equal distances over one period (or over the whole run), linear between them.
+typedef struct vsc_curve {
+  double period;    // ms; 0: not periodic, flat outside the table
+  double span;      // ms that the table covers
+  size_t intervals;
+  double *values;   // intervals + 1, owned
+} vsc_curve;
+
+// Tabulates `definition` over its period, or over [0, end_time] when it has none.
+// Fails with VSC_INPUT for a table that is not rising in time, and for lack of memory.
+vsc_status vsc_curve_build(const vsc_curve_def *definition, double end_time, vsc_curve *curve,
+                           vsc_error *error);
+
+void vsc_curve_free(vsc_curve *curve);  // the content
+
+// The value at `time` (ms); times before 0 have the value of time 0.
+double vsc_curve_value(const vsc_curve *curve, double time);
+
+// The largest value of the table.
+double vsc_curve_peak(const vsc_curve *curve);
+
+#endif

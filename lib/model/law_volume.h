@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The energy of a volume ratio J:
+//
+//   U(J) = K/4 (J^2 - 1 - 2 ln J)   for J >= J0 = 0.2,  its second-order Taylor polynomial below:
+//
+// convex, finite everywhere, twice continuously differentiable, and pushing an inverted element out.
+// U'(J) = K/2 (J - 1/J); U''(J) = K/2 (1 + 1/J^2); K is the bulk modulus at rest (U''(1) = K).
+#ifndef VSC_MODEL_LAW_VOLUME_H
+#define VSC_MODEL_LAW_VOLUME_H
+
+#include <math.h>
+
+#include "base/wide.h"
+
+#define VSC_VOLUME_J0 0.2
+#define VSC_VOLUME_SLOPE0 (0.5 * (1 + 1 / (VSC_VOLUME_J0 * VSC_VOLUME_J0)))  // U''(J0)/K
+
+// U'(J): minus the pressure, kPa.
+VSC_INLINE vsc_wide vsc_volume_stress(vsc_wide K, vsc_wide J)
+{
+  const vsc_wide J0 = vsc_splat(VSC_VOLUME_J0);
+  const vsc_wide kept = vsc_select(J > J0, J, J0);
+  return K * (0.5 * (kept - 1.0 / kept) + VSC_VOLUME_SLOPE0 * (J - kept));
+}
+
+// U(J), kPa = uJ/mm^3.
+static inline double vsc_volume_energy(double K, double J)
+{
+  const double kept = J > VSC_VOLUME_J0 ? J : VSC_VOLUME_J0;
+  const double below = J - kept;
+  const double slope = 0.5 * (kept - 1 / kept);
+  return K * (0.25 * (kept * kept - 1 - 2 * log(kept)) + slope * below +
+              0.5 * VSC_VOLUME_SLOPE0 * below * below);
+}
+
+#endif

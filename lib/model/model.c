@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/model.h"
+
+#include <string.h>
+
+#include "base/mem.h"
+
+static void free_order_and_elements(vsc_model *model)
+{
+  vsc_free(model->mesh_node);
+  vsc_free(model->mesh_tet);
+  vsc_free(model->packs);
+  vsc_free(model->patches);
+  vsc_free(model->shared);
+  vsc_free(model->sum_start);
+  vsc_free(model->sum_place);
+  vsc_free(model->known);
+  vsc_free(model->amplitude);
+  vsc_free(model->delay);
+}
+
+static void free_nodes(vsc_model *model)
+{
+  vsc_free(model->rest);
+  vsc_free(model->mass);
+  vsc_free(model->inverse_mass);
+  vsc_free(model->weight);
+  vsc_free(model->group_volume);
+  vsc_free(model->group_modulus);
+}
+
+static void free_lists(vsc_model *model)
+{
+  for (size_t m = 0; model->materials && m < model->material_count; m++)
+    vsc_curve_free(&model->materials[m].curve);
+  vsc_free(model->materials);
+  for (size_t p = 0; model->pressures && p < model->pressure_count; p++) {
+    vsc_free(model->pressures[p].triangles);
+    vsc_curve_free(&model->pressures[p].curve);
+  }
+  vsc_free(model->pressures);
+  for (size_t s = 0; model->surfaces && s < model->surface_count; s++)
+    vsc_surface_free(&model->surfaces[s]);
+  vsc_free(model->surfaces);
+  for (size_t s = 0; model->sets && s < model->set_count; s++) vsc_node_set_free(&model->sets[s]);
+  vsc_free(model->sets);
+}
+
+void vsc_model_free(vsc_model *model)
+{
+  if (model == NULL) return;
+  free_order_and_elements(model);
+  free_nodes(model);
+  free_lists(model);
+  vsc_free(model);
+}
+
+int vsc_model_find_surface(const vsc_model *model, const char *name)
+{
+  for (size_t s = 0; s < model->surface_count; s++)
+    if (strcmp(model->surfaces[s].name, name) == 0) return (int)s;
+  return -1;
+}
+
+double vsc_model_pressure(const vsc_model *model, size_t p, double time)
+{
+  return model->pressures[p].peak * vsc_curve_value(&model->pressures[p].curve, time);
+}
+
+double vsc_model_activation(const vsc_model *model, const vsc_material *material, size_t slot,
+                            double time)
+{
+  const double delay = material->delay + (model->delay ? model->delay[slot] : 0);
+  const double amplitude = model->amplitude ? model->amplitude[slot] : 1;
+  return amplitude * vsc_curve_value(&material->curve, time - delay);
+}

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/terms.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/mem.h"
+
+// The node of corner `corner` of tet `lane` of a pack.
+static uint32_t global_node(const vsc_model *model, const vsc_patch *patch, const vsc_pack *pack,
+                            int corner, int lane)
+{
+  const uint32_t local = pack->node[corner][lane];
+  return local < patch->own_count ? patch->first_node + local
+                                  : model->shared[patch->first_shared + local - patch->own_count];
+}
+
+static vsc_status tet_values(const vsc_mesh *mesh, const char *name, size_t material, const char *key,
+                             const double **values, vsc_error *error)
+{
+  *values = NULL;
+  if (name[0] == '\0') return VSC_OK;
+  const vsc_array *array = vsc_arrays_find(&mesh->tet_data, name);
+  if (array != NULL && array->components == 1) {
+    *values = array->values;
+    return VSC_OK;
+  }
+  char hint[256];
+  vsc_arrays_hint(&mesh->tet_data, name, hint, sizeof hint);
+  return vsc_fail(error, VSC_INPUT,
+                  "materials[%zu].active.%s: the mesh has no cell array '%s' with one number per element%s",
+                  material, key, name, hint);
+}
+
+static vsc_status fill_activation(const vsc_mesh *mesh, const vsc_definition *definition, size_t m,
+                                  vsc_model *model, vsc_error *error)
+{
+  const vsc_active_def *active = &definition->materials[m].active;
+  const double *amplitudes, *delays;
+  vsc_status status = tet_values(mesh, active->amplitude_array, m, "amplitude_array", &amplitudes, error);
+  if (status == VSC_OK) status = tet_values(mesh, active->delay_array, m, "delay_array", &delays, error);
+  if (status != VSC_OK) return status;
+  for (size_t p = 0; p < model->patch_count; p++) {
+    const vsc_patch *patch = &model->patches[p];
+    if (patch->material != m) continue;
+    const size_t first = VSC_WIDTH * (size_t)patch->first_pack;
+    for (size_t slot = first; slot < first + VSC_WIDTH * (size_t)patch->pack_count; slot++) {
+      const uint32_t tet = model->mesh_tet[slot];
+      if (tet == VSC_NO_TET) continue;
+      const double amplitude = amplitudes ? amplitudes[tet] : 1;
+      const double delay = delays ? delays[tet] * active->delay_unit : 0;
+      if (!isfinite(amplitude) || !isfinite(delay))
+        return vsc_fail(error, VSC_INPUT,
+                        "materials[%zu].active: element %u has amplitude %g and delay %g ms; both must be finite",
+                        m, mesh->tet_source[tet], amplitude, delay);
+      if (model->amplitude) model->amplitude[slot] = model->known[slot] ? amplitude : 0;
+      if (model->delay) model->delay[slot] = delay;
+    }
+  }
+  return VSC_OK;
+}
+
+vsc_status vsc_terms_activation(const vsc_mesh *mesh, const vsc_definition *definition, vsc_model *model,
+                                vsc_error *error)
+{
+  if (model->terms.active == VSC_ACTIVE_NONE) return VSC_OK;
+  const size_t slots = VSC_WIDTH * model->pack_count;
+  bool amplitudes = false, delays = false;
+  for (size_t slot = 0; slot < slots; slot++)
+    if (model->mesh_tet[slot] != VSC_NO_TET && !model->known[slot]) amplitudes = true;
+  for (size_t m = 0; m < definition->material_count; m++) {
+    amplitudes |= definition->materials[m].active.amplitude_array[0] != '\0';
+    delays |= definition->materials[m].active.delay_array[0] != '\0';
+  }
+  if ((amplitudes && !VSC_NEW(model->amplitude, slots)) || (delays && !VSC_NEW(model->delay, slots)))
+    return vsc_fail_memory(error, "the activation of the elements");
+  if (!amplitudes && !delays) return VSC_OK;
+  for (size_t m = 0; m < definition->material_count; m++) {
+    const vsc_status status = fill_activation(mesh, definition, m, model, error);
+    if (status != VSC_OK) return status;
+  }
+  return VSC_OK;
+}
+
+vsc_status vsc_terms_masses(const vsc_mesh *mesh, vsc_model *model, vsc_error *error)
+{
+  const size_t nodes = model->node_count;
+  if (!VSC_NEW(model->rest, 4 * nodes) || !VSC_NEW(model->mass, nodes) ||
+      !VSC_NEW(model->inverse_mass, 4 * nodes))
+    return vsc_fail_memory(error, "the nodes");
+  for (size_t n = 0; n < nodes; n++)
+    memcpy(model->rest + 4 * n, mesh->nodes + 3 * (size_t)model->mesh_node[n], 3 * sizeof(double));
+  for (size_t p = 0; p < model->patch_count; p++) {
+    const vsc_patch *patch = &model->patches[p];
+    const double density = model->materials[patch->material].density;
+    for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++)
+      for (int c = 0; c < 4; c++)
+        for (int l = 0; l < VSC_WIDTH; l++)
+          model->mass[global_node(model, patch, &model->packs[k], c, l)] +=
+              density * model->packs[k].V[l] / 4;
+  }
+  for (size_t n = 0; n < nodes; n++) {
+    model->total_mass += model->mass[n];
+    for (int i = 0; i < 3; i++) model->inverse_mass[4 * n + i] = 1 / model->mass[n];
+  }
+  return VSC_OK;
+}
+
+vsc_status vsc_terms_volume_groups(vsc_model *model, vsc_error *error)
+{
+  if (!model->terms.nodal_volume) return VSC_OK;
+  if (!VSC_NEW(model->group_volume, model->node_count) || !VSC_NEW(model->group_modulus, model->node_count))
+    return vsc_fail_memory(error, "volume groups");
+  for (size_t p = 0; p < model->patch_count; p++) {
+    const vsc_patch *patch = &model->patches[p];
+    const double modulus = model->materials[patch->material].volume_modulus;
+    for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++)
+      for (int c = 0; c < 4; c++)
+        for (int l = 0; l < VSC_WIDTH; l++) {
+          const uint32_t node = global_node(model, patch, &model->packs[k], c, l);
+          model->group_volume[node] += model->packs[k].V[l] / 4;
+          model->group_modulus[node] += modulus * model->packs[k].V[l] / 4;
+        }
+  }
+  for (size_t n = 0; n < model->node_count; n++) model->group_modulus[n] /= model->group_volume[n];
+  return VSC_OK;
+}

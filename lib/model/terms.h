@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The parts of the model that come after its elements: masses, volume groups, activation, named
+// sets, supports and loads. Internal to the model room; called in this order by vsc_model_build.
+#ifndef VSC_MODEL_TERMS_H
+#define VSC_MODEL_TERMS_H
+
+#include "mesh/mesh.h"
+#include "model/model.h"
+
+// amplitude and delay of each slot, where a material names cell arrays or is active in elements
+// without a known fibre (amplitude 0: passive).
+vsc_status vsc_terms_activation(const vsc_mesh *mesh, const vsc_definition *definition, vsc_model *model,
+                                vsc_error *error);
+
+// Rest positions, lumped masses m_i = sum_e rho V_e / 4 and their inverses.
+vsc_status vsc_terms_masses(const vsc_mesh *mesh, vsc_model *model, vsc_error *error);
+
+// V_n = sum_e V_e / 4 and K_n = sum_e K_e V_e / 4 / V_n over the tets e round node n.
+vsc_status vsc_terms_volume_groups(vsc_model *model, vsc_error *error);
+
+// The named surfaces and node sets.
+vsc_status vsc_terms_selections(const vsc_mesh *mesh, const vsc_definition *definition, vsc_model *model,
+                                vsc_error *error);
+
+// Held directions: inverse mass 0.
+vsc_status vsc_terms_supports(const vsc_definition *definition, vsc_model *model, vsc_error *error);
+
+// Pressures and weights.
+vsc_status vsc_terms_loads(const vsc_definition *definition, vsc_model *model, vsc_error *error);
+
+#endif
