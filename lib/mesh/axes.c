@@ -42,7 +42,7 @@ static double direction_of(const double vector[3], double unit[3])
   return largest * vsc_normalize(unit);
 }
 
-// The part of `hint` orthogonal to the unit vector `f`, normalised; 0 when they are within 1 degree.
+// The part of `hint` orthogonal to the unit vector f, normalised; 0 when they are within 1 degree.
 static int orthogonal_part(const double hint[3], const double f[3], double s[3])
 {
   double unit[3], across[3];

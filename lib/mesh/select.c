@@ -84,8 +84,8 @@ static vsc_status mark_triangle_array(const vsc_mesh *mesh, const vsc_selector *
 {
   if (mesh->triangle_count == 0)
     return vsc_fail(error, VSC_INPUT,
-                    "%s: the mesh file holds no triangles on its tetrahedra: select by a node array, "
-                    "a box or a plane",
+                    "%s: the mesh file holds no triangles on its tetrahedra: select by a node "
+                    "array, a box or a plane",
                     selector->name);
   const vsc_array *array;
   const vsc_status status = find_array(&mesh->triangle_data, "triangle", selector, &array, error);
@@ -205,8 +205,8 @@ static vsc_status fail_empty(const vsc_mesh *mesh, const vsc_selector *selector,
   case VSC_SELECT_BOX:
     vsc_mesh_box(mesh, low, high);
     return vsc_fail(error, VSC_INPUT,
-                    "%s: no node lies in the box (%g %g %g) to (%g %g %g) mm: the mesh reaches from "
-                    "(%g %g %g) to (%g %g %g) mm",
+                    "%s: no node lies in the box (%g %g %g) to (%g %g %g) mm: the mesh reaches "
+                    "from (%g %g %g) to (%g %g %g) mm",
                     selector->name, selector->box_low[0], selector->box_low[1],
                     selector->box_low[2], selector->box_high[0], selector->box_high[1],
                     selector->box_high[2], low[0], low[1], low[2], high[0], high[1], high[2]);

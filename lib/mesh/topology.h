@@ -16,15 +16,16 @@ typedef struct vsc_topology {
   uint32_t *node_tets;       // 4 tet_count, ascending for each node
   int32_t (*neighbours)[4];  // tet_count: [i] is the tet across the face opposite corner i, -1 on
                              // the boundary
-  size_t crowded_faces;      // faces that three or more tets claim (tets overlap): 0 in a sound mesh;
-                             // such a face counts as inside, and each tet names another one of them
+  size_t crowded_faces;      // faces that three or more tets claim (tets overlap): 0 in a sound
+                             // mesh; such a face counts as inside, and each of its tets names the
+                             // next of them as its neighbour
 } vsc_topology;
 
 // The corners of the face opposite corner i of a right-handed tet, counter-clockwise from outside.
 extern const int vsc_tet_faces[4][3];
 
-// Fills `topology` for the tets of `mesh`; its content is owned by the caller. Fails with VSC_SYSTEM
-// when memory is short, and leaves it empty.
+// Fills `topology` for the tets of `mesh`; its content is owned by the caller. When memory is short
+// it fails with VSC_SYSTEM and leaves it empty.
 vsc_status vsc_topology_make(const vsc_mesh *mesh, vsc_topology *topology, vsc_error *error);
 
 // Frees the content; an empty (zeroed) one is fine.

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/surface.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "base/vec3.h"
+
+enum { OFF_PATH = -1 };
+
+// A directed edge, kept as its ascending pair of nodes and the way it runs.
+typedef struct edge {
+  uint32_t low, high;
+  int32_t sense;  // +1 from low to high, -1 from high to low
+} edge;
+
+// An edge of the caps, against the surface's own.
+typedef struct rim_edge {
+  uint32_t from, to;
+} rim_edge;
+
+// What the tracing of rims works on.
+typedef struct tracer {
+  size_t edge_count;
+  rim_edge *edges;    // by `from`, then `to`
+  size_t *next;       // edge_count: at the first edge of each node, its first unused edge
+  size_t *path;       // edge_count + 1: first edge of each node on the way
+  int64_t *place;     // edge_count: at the first edge of each node, its place on the path
+  size_t *start;      // the cavity's rim_start, being filled
+  uint32_t *nodes;    // and its rim_nodes
+  size_t rims, used;  // how much of them is filled
+} tracer;
+
+static int compare_edges(const void *a, const void *b)
+{
+  const edge *x = a, *y = b;
+  if (x->low != y->low) return x->low < y->low ? -1 : 1;
+  if (x->high != y->high) return x->high < y->high ? -1 : 1;
+  return x->sense - y->sense;
+}
+
+static int compare_rim_edges(const void *a, const void *b)
+{
+  const rim_edge *x = a, *y = b;
+  if (x->from != y->from) return x->from < y->from ? -1 : 1;
+  if (x->to != y->to) return x->to < y->to ? -1 : 1;
+  return 0;
+}
+
+static void list_edges(const vsc_surface *surface, edge *edges)
+{
+  for (size_t t = 0; t < surface->count; t++)
+    for (int i = 0; i < 3; i++) {
+      const uint32_t a = surface->triangles[3 * t + i];
+      const uint32_t b = surface->triangles[3 * t + (i + 1) % 3];
+      edges[3 * t + i] = a < b ? (edge){a, b, 1} : (edge){b, a, -1};
+    }
+  qsort(edges, 3 * surface->count, sizeof *edges, compare_edges);
+}
+
+// Reverses the edges that are left when opposite ones cancel; returns how many there are.
+static size_t list_rim_edges(const edge *edges, size_t count, rim_edge *rim)
+{
+  size_t found = 0;
+  for (size_t first = 0, last; first < count; first = last) {
+    int64_t net = 0;
+    for (last = first; last < count && edges[last].low == edges[first].low &&
+                       edges[last].high == edges[first].high; last++)
+      net += edges[last].sense;
+    const uint32_t low = edges[first].low, high = edges[first].high;
+    for (; net > 0; net--) rim[found++] = (rim_edge){high, low};
+    for (; net < 0; net++) rim[found++] = (rim_edge){low, high};
+  }
+  qsort(rim, found, sizeof *rim, compare_rim_edges);
+  return found;
+}
+
+// The first edge that leaves `node`; every node of a rim has one.
+static size_t first_edge(const tracer *t, uint32_t node)
+{
+  size_t low = 0, high = t->edge_count;
+  while (low < high) {
+    const size_t middle = low + (high - low) / 2;
+    if (t->edges[middle].from < node) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
+static bool has_unused(const tracer *t, size_t first)
+{
+  const size_t next = t->next[first];
+  return next < t->edge_count && t->edges[next].from == t->edges[first].from;
+}
+
+// Takes the path from place `from` to its end as a rim; the node at `from` stays on the path.
+static void cut_rim(tracer *t, size_t from, size_t length)
+{
+  for (size_t k = from; k < length; k++) {
+    t->nodes[t->used++] = t->edges[t->path[k]].from;
+    if (k > from) t->place[t->path[k]] = OFF_PATH;
+  }
+  t->start[++t->rims] = t->used;
+}
+
+// Walks from the node whose first edge is `first` until all that can be reached is cut into rims.
+// As many edges enter a node as leave it, so the walk can end only where it began.
+static void trace_from(tracer *t, size_t first)
+{
+  size_t length = 1;
+  t->path[0] = first;
+  t->place[first] = 0;
+  while (has_unused(t, t->path[length - 1])) {
+    const size_t taken = t->next[t->path[length - 1]]++;
+    const size_t to = first_edge(t, t->edges[taken].to);
+    if (t->place[to] == OFF_PATH) {
+      t->place[to] = (int64_t)length;
+      t->path[length++] = to;
+    } else {
+      const size_t from = (size_t)t->place[to];
+      cut_rim(t, from, length);
+      length = from + 1;
+    }
+  }
+  t->place[first] = OFF_PATH;
+}
+
+static vsc_status trace_rims(rim_edge *edges, size_t count, vsc_cavity *cavity, vsc_error *error)
+{
+  tracer t = {.edge_count = count, .edges = edges};
+  vsc_status status = VSC_OK;
+  if (VSC_NEW(t.next, count) && VSC_NEW(t.path, count + 1) && VSC_NEW(t.place, count) &&
+      VSC_NEW(cavity->rim_start, count + 1) && VSC_NEW(cavity->rim_nodes, count)) {
+    t.start = cavity->rim_start;
+    t.nodes = cavity->rim_nodes;
+    for (size_t i = 0; i < count; i++) {
+      t.next[i] = i;
+      t.place[i] = OFF_PATH;
+    }
+    for (size_t i = 0; i < count; i++)
+      if (i == 0 || edges[i].from != edges[i - 1].from)
+        while (has_unused(&t, i)) trace_from(&t, i);
+    cavity->rim_count = t.rims;
+  } else {
+    status = vsc_fail_memory(error, "a cavity's rims");
+  }
+  vsc_free(t.next);
+  vsc_free(t.path);
+  vsc_free(t.place);
+  return status;
+}
+
+static vsc_status find_rims(const vsc_surface *surface, vsc_cavity *cavity, vsc_error *error)
+{
+  edge *edges;
+  rim_edge *rim = NULL;
+  vsc_status status;
+  if (VSC_NEW(edges, 3 * surface->count) && VSC_NEW(rim, 3 * surface->count)) {
+    list_edges(surface, edges);
+    const size_t count = list_rim_edges(edges, 3 * surface->count, rim);
+    status = trace_rims(rim, count, cavity, error);
+  } else {
+    status = vsc_fail_memory(error, "a cavity's edges");
+  }
+  vsc_free(edges);
+  vsc_free(rim);
+  return status;
+}
+
+vsc_status vsc_cavity_make(const vsc_surface *surface, size_t node_count, vsc_cavity *cavity,
+                           vsc_error *error)
+{
+  *cavity = (vsc_cavity){.triangle_count = surface->count};
+  vsc_copy_name(cavity->name, surface->name);
+  if (surface->count == 0)
+    return vsc_fail(error, VSC_INPUT, "surface %s has no triangles: it encloses no volume",
+                    surface->name);
+  for (size_t i = 0; i < 3 * surface->count; i++)
+    if (surface->triangles[i] >= node_count)
+      return vsc_fail(error, VSC_INPUT,
+                      "surface %s: triangle %zu names node %u, the mesh has nodes 0 to %zu: make "
+                      "the surface from this mesh",
+                      surface->name, i / 3, surface->triangles[i], node_count - 1);
+  if (!VSC_NEW(cavity->triangles, 3 * surface->count)) return vsc_fail_memory(error, "a cavity");
+  memcpy(cavity->triangles, surface->triangles, 3 * surface->count * sizeof *surface->triangles);
+  const vsc_status status = find_rims(surface, cavity, error);
+  if (status != VSC_OK) vsc_cavity_free(cavity);
+  return status;
+}
+
+void vsc_cavity_free(vsc_cavity *cavity)
+{
+  vsc_free(cavity->triangles);
+  vsc_free(cavity->rim_start);
+  vsc_free(cavity->rim_nodes);
+  *cavity = (vsc_cavity){0};
+}
+
+static void rim_centre(const vsc_cavity *cavity, size_t rim, const double *positions, size_t stride,
+                       double centre[3])
+{
+  const size_t first = cavity->rim_start[rim], last = cavity->rim_start[rim + 1];
+  for (int axis = 0; axis < 3; axis++) {
+    double sum = 0;
+    for (size_t k = first; k < last; k++) sum += positions[stride * cavity->rim_nodes[k] + axis];
+    centre[axis] = sum / (double)(last - first);
+  }
+}
+
+// The position of the node after place k of a rim.
+static const double *following(const vsc_cavity *cavity, size_t rim, size_t k,
+                               const double *positions, size_t stride)
+{
+  const size_t next = k + 1 < cavity->rim_start[rim + 1] ? k + 1 : cavity->rim_start[rim];
+  return positions + stride * cavity->rim_nodes[next];
+}
+
+static double cap_volume(const vsc_cavity *cavity, size_t rim, const double origin[3],
+                         const double *positions, size_t stride)
+{
+  double centre[3], volume = 0;
+  rim_centre(cavity, rim, positions, stride, centre);
+  for (size_t k = cavity->rim_start[rim]; k < cavity->rim_start[rim + 1]; k++)
+    volume -= vsc_tet_volume(origin, positions + stride * cavity->rim_nodes[k],
+                             following(cavity, rim, k, positions, stride), centre);
+  return volume;
+}
+
+double vsc_cavity_volume(const vsc_cavity *cavity, const double *positions, size_t stride)
+{
+  const double *origin = positions + stride * cavity->triangles[0];
+  double volume = 0;
+  for (size_t t = 0; t < cavity->triangle_count; t++) {
+    const uint32_t *node = cavity->triangles + 3 * t;
+    volume -= vsc_tet_volume(origin, positions + stride * node[0], positions + stride * node[1],
+                             positions + stride * node[2]);
+  }
+  for (size_t rim = 0; rim < cavity->rim_count; rim++)
+    volume += cap_volume(cavity, rim, origin, positions, stride);
+  return volume;
+}
+
+static double triangle_area(const double a[3], const double b[3], const double c[3])
+{
+  double ab[3], ac[3], normal[3];
+  vsc_subtract(b, a, ab);
+  vsc_subtract(c, a, ac);
+  vsc_cross(ab, ac, normal);
+  return vsc_norm(normal) / 2;
+}
+
+double vsc_cavity_cap_area(const vsc_cavity *cavity, size_t rim, const double *positions,
+                           size_t stride)
+{
+  double centre[3], area = 0;
+  rim_centre(cavity, rim, positions, stride, centre);
+  for (size_t k = cavity->rim_start[rim]; k < cavity->rim_start[rim + 1]; k++)
+    area += triangle_area(positions + stride * cavity->rim_nodes[k],
+                          following(cavity, rim, k, positions, stride), centre);
+  return area;
+}
+
+double vsc_surface_area(const vsc_surface *surface, const double *positions, size_t stride)
+{
+  double area = 0;
+  for (size_t t = 0; t < surface->count; t++) {
+    const uint32_t *node = surface->triangles + 3 * t;
+    area += triangle_area(positions + stride * node[0], positions + stride * node[1],
+                          positions + stride * node[2]);
+  }
+  return area;
+}

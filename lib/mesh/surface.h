@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Measures of a surface: its area, and the volume of the cavity that it encloses.
+#ifndef VSC_MESH_SURFACE_H
+#define VSC_MESH_SURFACE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/status.h"
+#include "mesh/select.h"
+
+// A surface prepared for measuring the volume it encloses, again and again while its nodes move.
+// Where it is open, each rim is a closed loop of nodes, capped by the fan of triangles between the
+// loop's edges and the mean of its nodes (which moves with them).
+typedef struct vsc_cavity {
+  char name[VSC_NAME];
+  size_t triangle_count;
+  uint32_t *triangles;  // triangle_count x 3, as the surface has them; owned
+  size_t rim_count;     // 0: the surface is closed
+  size_t *rim_start;    // rim_count + 1: rim r has the nodes rim_nodes[rim_start[r]..]; owned
+  uint32_t *rim_nodes;  // in the order in which a cap continues the surface's turning; owned
+} vsc_cavity;
+
+// Prepares `surface` for vsc_cavity_volume; nodes are numbered below `node_count`. Any surface will
+// do: several pieces, edges that join more than two triangles, rims that touch one another (they
+// are taken apart into loops without repeated nodes), because the directed edges that no neighbour
+// cancels always form closed loops. An edge that runs twice the same way without its reverse, as
+// between triangles that are turned differently, becomes part of two rims. Fails with VSC_INPUT
+// for a surface without triangles or with a node number out of range. The content of `cavity` is
+// owned by the caller.
+vsc_status vsc_cavity_make(const vsc_surface *surface, size_t node_count, vsc_cavity *cavity,
+                           vsc_error *error);
+
+// Frees the content; a zeroed one is fine.
+void vsc_cavity_free(vsc_cavity *cavity);
+
+// The volume enclosed, mm^3: by the divergence theorem minus one sixth of the sum of a . (b x c)
+// over triangles and caps, seen from one of the nodes, so that it does not change with translation.
+// Positive where the triangles' normals, which point out of the tissue, point into the cavity, as an
+// endocardium's do; negative for a surface that encloses the tissue. Node i lies at
+// positions[stride i .. stride i + 2].
+double vsc_cavity_volume(const vsc_cavity *cavity, const double *positions, size_t stride);
+
+// The area of the cavity's cap over rim `rim`, mm^2.
+double vsc_cavity_cap_area(const vsc_cavity *cavity, size_t rim, const double *positions,
+                           size_t stride);
+
+// The area of a surface, mm^2; positions as above.
+double vsc_surface_area(const vsc_surface *surface, const double *positions, size_t stride);
+
+#endif
