@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fibers/fibers.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/vec3.h"
+#include "fibers/helix.h"
+#include "fibers/synthetic.h"
+#include "io/vtk.h"
+
+// ---- From a voxel map
+
+static vsc_status from_map(const vsc_mesh *mesh, const vsc_angle_map_def *map, vsc_axes *axes,
+                           vsc_fiber_report *report, vsc_error *error)
+{
+  vsc_image *image = NULL;
+  vsc_status status = vsc_vtk_read_image(map->file, map->length_unit, &image, error);
+  if (status != VSC_OK) return status;
+  status = vsc_fibers_sample(mesh, image, map, axes, report, error);
+  vsc_image_free(image);
+  return status;
+}
+
+// ---- From arrays of the mesh
+
+static vsc_status find_vectors(const vsc_mesh *mesh, const char *name, const char *what,
+                               const double **vectors, vsc_error *error)
+{
+  char hint[256];
+  const vsc_array *array = vsc_arrays_find(&mesh->tet_data, name);
+  if (array == NULL) {
+    vsc_arrays_hint(&mesh->tet_data, name, hint, sizeof hint);
+    return vsc_fail(error, VSC_INPUT, "the mesh has no array '%s' on its cells for the %s%s", name, what, hint);
+  }
+  if (array->components != 3 || array->tuples != mesh->tet_count)
+    return vsc_fail(error, VSC_INPUT, "cell array '%s' for the %s has %d components, expected a vector of 3", name,
+                    what, array->components);
+  *vectors = array->values;
+  return VSC_OK;
+}
+
+// Counts a sheet vector that is no use, and keeps the largest deviation from a right angle.
+static void judge_sheet(const double *fiber, const double *sheet, vsc_fiber_report *report)
+{
+  const double one_degree = M_PI / 180;
+  double f[3], s[3];
+  memcpy(f, fiber, sizeof f);
+  memcpy(s, sheet, sizeof s);
+  vsc_normalize(f);
+  const double length = vsc_normalize(s), cosine = fabs(vsc_dot(f, s));
+  const bool usable = isfinite(length) && length > 0;
+  if (usable) {
+    const double deviation = asin(fmin(cosine, 1)) / one_degree;
+    report->worst_sheet_angle = fmax(report->worst_sheet_angle, deviation);
+  }
+  if (!usable || cosine > cos(one_degree)) report->invalid_sheets++;
+}
+
+static bool all_parallel(const vsc_axes *axes)
+{
+  const double *first = NULL;
+  size_t others = 0;
+  for (size_t e = 0; e < axes->count; e++) {
+    if (!axes->known[e]) continue;
+    const double *fiber = &axes->frames[9 * e];
+    if (first == NULL) {
+      first = fiber;
+      continue;
+    }
+    double across[3];
+    vsc_cross(first, fiber, across);
+    if (vsc_norm(across) > 1e-3) return false;
+    others++;
+  }
+  return others > 0;
+}
+
+static vsc_status from_arrays(const vsc_mesh *mesh, const vsc_fiber_def *definition, vsc_axes *axes,
+                              vsc_fiber_report *report, vsc_error *error)
+{
+  const double *fibers, *sheets = NULL;
+  const char *name = definition->sheet_array;
+  vsc_status status = find_vectors(mesh, definition->fiber_array, "fibre", &fibers, error);
+  if (status != VSC_OK) return status;
+  const bool optional = strcmp(name, "sheet") == 0 && vsc_arrays_find(&mesh->tet_data, name) == NULL;
+  if (name[0] != '\0' && !optional) status = find_vectors(mesh, name, "sheet", &sheets, error);
+  if (status != VSC_OK) return status;
+  for (size_t e = 0; e < mesh->tet_count; e++) {
+    const double *sheet = sheets == NULL ? NULL : &sheets[3 * e];
+    axes->known[e] = vsc_axes_complete(&fibers[3 * e], sheet, &axes->frames[9 * e]) != 0;
+    if (!axes->known[e])
+      report->invalid++;
+    else if (sheet != NULL)
+      judge_sheet(&fibers[3 * e], sheet, report);
+  }
+  report->constant = all_parallel(axes);
+  return VSC_OK;
+}
+
+// ---- From the depth in a wall
+
+static const vsc_surface *find_surface(const vsc_surface *surfaces, size_t count, const char *name,
+                                       const char *what, vsc_error *error)
+{
+  char known[256] = "";
+  size_t used = 0;
+  for (size_t k = 0; k < count; k++) {
+    if (strcmp(surfaces[k].name, name) == 0) return &surfaces[k];
+    if (used < sizeof known)
+      used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", k == 0 ? "" : ", ", surfaces[k].name);
+  }
+  vsc_fail(error, VSC_INPUT, "helix: no surface '%s' for the %s, known surfaces: %s", name, what,
+           count == 0 ? "none" : known);
+  return NULL;
+}
+
+static vsc_status from_depth(const vsc_mesh *mesh, const vsc_fiber_def *definition,
+                             const vsc_surface *surfaces, size_t count, vsc_axes *axes,
+                             vsc_error *error)
+{
+  const vsc_surface *endo = find_surface(surfaces, count, definition->endo, "endocardium", error);
+  if (endo == NULL) return VSC_INPUT;
+  const vsc_surface *epi = find_surface(surfaces, count, definition->epi, "epicardium", error);
+  if (epi == NULL) return VSC_INPUT;
+  return vsc_fibers_helix(mesh, definition, endo, epi, axes, error);
+}
+
+static vsc_status from_source(const vsc_mesh *mesh, const vsc_fiber_def *definition,
+                              const vsc_surface *surfaces, size_t count, vsc_axes *axes,
+                              vsc_fiber_report *report, vsc_error *error)
+{
+  switch (definition->source) {
+    case VSC_FIBER_NONE: return VSC_OK;
+    case VSC_FIBER_MAP: return from_map(mesh, &definition->map, axes, report, error);
+    case VSC_FIBER_ARRAYS: return from_arrays(mesh, definition, axes, report, error);
+    case VSC_FIBER_HELIX: return from_depth(mesh, definition, surfaces, count, axes, error);
+    default: return vsc_fibers_synthetic(mesh, definition, axes, error);
+  }
+}
+
+vsc_status vsc_fibers_make(const vsc_mesh *mesh, const vsc_fiber_def *definition,
+                           const vsc_surface *surfaces, size_t surface_count, vsc_axes **result,
+                           vsc_fiber_report *report, vsc_error *error)
+{
+  *report = (vsc_fiber_report){0};
+  vsc_axes *axes = vsc_axes_create(mesh->tet_count);
+  if (axes == NULL) return vsc_fail_memory(error, "the fibre axes");
+  vsc_status status = from_source(mesh, definition, surfaces, surface_count, axes, report, error);
+  const bool fills = definition->source == VSC_FIBER_MAP || definition->source == VSC_FIBER_ARRAYS;
+  if (status == VSC_OK && fills && definition->fill)
+    status = vsc_fibers_fill(mesh, axes, &report->filled, error);
+  if (status == VSC_OK) status = vsc_fiber_describe(axes, report, error);
+  if (status == VSC_OK)
+    *result = axes;
+  else
+    vsc_axes_free(axes);
+  return status;
+}

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fibers/helix.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+#include <suitesparse/cholmod.h>
+
+#include "base/mem.h"
+#include "base/vec3.h"
+
+static const double PARALLEL = 1e-3;  // sine of the angle below which two axes are one
+
+int vsc_helix_frame(const double transmural[3], const double long_axis[3], double angle,
+                    double frame[9])
+{
+  double e_t[3], e_l[3], e_c[3], fiber[3];
+  memcpy(e_t, transmural, sizeof e_t);
+  memcpy(e_l, long_axis, sizeof e_l);
+  const double length = vsc_normalize(e_t), axis_length = vsc_normalize(e_l);
+  if (!(isfinite(length) && length > 0 && isfinite(axis_length) && axis_length > 0)) return 0;
+  vsc_cross(e_l, e_t, e_c);
+  if (vsc_normalize(e_c) < PARALLEL) {
+    int least = 0;
+    for (int a = 1; a < 3; a++)
+      if (fabs(e_t[a]) < fabs(e_t[least])) least = a;
+    const double global[3] = {least == 0, least == 1, least == 2};
+    vsc_cross(global, e_t, e_c);
+    vsc_normalize(e_c);
+  }
+  vsc_cross(e_t, e_c, e_l);
+  for (int a = 0; a < 3; a++) fiber[a] = cos(angle) * e_c[a] + sin(angle) * e_l[a];
+  return vsc_axes_complete(fiber, e_t, frame);
+}
+
+// The gradients of the four linear shape functions of a tet, 1/mm; returns its volume, mm^3.
+static double shape_gradients(const vsc_mesh *mesh, size_t tet, double gradient[4][3])
+{
+  const uint32_t *node = &mesh->tets[4 * tet];
+  double edge[3][3];
+  for (int i = 0; i < 3; i++)
+    vsc_subtract(&mesh->nodes[3 * (size_t)node[i + 1]], &mesh->nodes[3 * (size_t)node[0]], edge[i]);
+  for (int i = 0; i < 3; i++) vsc_cross(edge[(i + 1) % 3], edge[(i + 2) % 3], gradient[i + 1]);
+  const double determinant = vsc_dot(edge[0], gradient[1]);
+  for (int a = 0; a < 3; a++) {
+    for (int i = 1; i < 4; i++) gradient[i][a] /= determinant;
+    gradient[0][a] = -(gradient[1][a] + gradient[2][a] + gradient[3][a]);
+  }
+  return determinant / 6;
+}
+
+static void gradient_of(const vsc_mesh *mesh, size_t tet, const double *depth, double gradient[3],
+                        double *volume)
+{
+  double shape[4][3];
+  *volume = shape_gradients(mesh, tet, shape);
+  for (int a = 0; a < 3; a++) {
+    gradient[a] = 0;
+    for (int i = 0; i < 4; i++) gradient[a] += shape[i][a] * depth[mesh->tets[4 * tet + (size_t)i]];
+  }
+}
+
+// ---- The Laplace problem: the known nodes are numbered -1, the free ones from 0.
+
+typedef struct laplace {
+  const vsc_mesh *mesh;
+  double *depth;     // node_count: known values, then the solution
+  int32_t *number;   // node_count
+  size_t free;       // free nodes
+  cholmod_common common;
+  cholmod_sparse *matrix;
+  cholmod_dense *right, *solution;
+  cholmod_factor *factor;
+} laplace;
+
+static void mark_known(laplace *problem, const vsc_surface *endo, const vsc_surface *epi)
+{
+  const size_t nodes = problem->mesh->node_count;
+  double *depth = problem->depth;
+  for (size_t i = 0; i < nodes; i++) depth[i] = -1;
+  for (size_t k = 0; k < 3 * endo->count; k++) depth[endo->triangles[k]] = 0;
+  for (size_t k = 0; k < 3 * epi->count; k++) {
+    double *value = &depth[epi->triangles[k]];
+    *value = *value == 0 || *value == 0.5 ? 0.5 : 1;
+  }
+  for (size_t i = 0; i < nodes; i++)
+    if (depth[i] < 0)
+      problem->number[i] = (int32_t)problem->free++;
+    else
+      problem->number[i] = -1;
+}
+
+static uint32_t root_of(uint32_t *parent, uint32_t node)
+{
+  while (parent[node] != node) {
+    parent[node] = parent[parent[node]];
+    node = parent[node];
+  }
+  return node;
+}
+
+// Every part of the mesh must hold a known node, or the matrix is singular.
+static vsc_status check_parts(const laplace *problem, vsc_error *error)
+{
+  const vsc_mesh *mesh = problem->mesh;
+  uint32_t *parent;
+  if (!VSC_NEW(parent, mesh->node_count)) return vsc_fail_memory(error, "the parts of the mesh");
+  for (size_t i = 0; i < mesh->node_count; i++) parent[i] = (uint32_t)i;
+  for (size_t e = 0; e < mesh->tet_count; e++)
+    for (int i = 1; i < 4; i++) {
+      const uint32_t a = root_of(parent, mesh->tets[4 * e]);
+      const uint32_t b = root_of(parent, mesh->tets[4 * e + (size_t)i]);
+      parent[a < b ? b : a] = a < b ? a : b;
+    }
+  uint8_t *held;
+  if (!VSC_NEW(held, mesh->node_count)) {
+    vsc_free(parent);
+    return vsc_fail_memory(error, "the parts of the mesh");
+  }
+  for (size_t i = 0; i < mesh->node_count; i++)
+    if (problem->number[i] < 0) held[root_of(parent, (uint32_t)i)] = 1;
+  vsc_status status = VSC_OK;
+  for (size_t i = 0; i < mesh->node_count && status == VSC_OK; i++)
+    if (!held[root_of(parent, (uint32_t)i)])
+      status = vsc_fail(error, VSC_INPUT, "helix: node %u lies in a part of the mesh that touches neither the "
+                        "endocardium nor the epicardium: remove that part or extend the surfaces",
+                        mesh->node_source[i]);
+  vsc_free(held);
+  vsc_free(parent);
+  return status;
+}
+
+static vsc_status cholmod_failure(const laplace *problem, vsc_error *error)
+{
+  switch (problem->common.status) {
+    case CHOLMOD_OUT_OF_MEMORY: return vsc_fail_memory(error, "the depth of the wall");
+    case CHOLMOD_TOO_LARGE:
+      return vsc_fail(error, VSC_SYSTEM, "helix: %zu free nodes are too many for the solver: use a coarser mesh",
+                      problem->free);
+    case CHOLMOD_NOT_POSDEF:
+    case CHOLMOD_DSMALL:
+      return vsc_fail(error, VSC_NUMERICAL, "helix: the depth problem is singular: look for nearly flat "
+                      "tets with `viscera info`");
+    default:
+      return vsc_fail(error, VSC_SYSTEM, "helix: CHOLMOD failed with status %d", problem->common.status);
+  }
+}
+
+static void add_tet(const laplace *problem, size_t tet, cholmod_triplet *triplet)
+{
+  double gradient[4][3];
+  const vsc_mesh *mesh = problem->mesh;
+  const double volume = shape_gradients(mesh, tet, gradient);
+  for (int i = 0; i < 4; i++) {
+    const uint32_t row_node = mesh->tets[4 * tet + (size_t)i];
+    const int32_t row = problem->number[row_node];
+    if (row < 0) continue;
+    for (int j = 0; j < 4; j++) {
+      const uint32_t column_node = mesh->tets[4 * tet + (size_t)j];
+      const int32_t column = problem->number[column_node];
+      const double value = volume * vsc_dot(gradient[i], gradient[j]);
+      if (column < 0) ((double *)problem->right->x)[row] -= value * problem->depth[column_node];
+      if (column < 0 || column > row) continue;
+      ((int *)triplet->i)[triplet->nnz] = row;
+      ((int *)triplet->j)[triplet->nnz] = column;
+      ((double *)triplet->x)[triplet->nnz++] = value;
+    }
+  }
+}
+
+static bool assemble(laplace *problem)
+{
+  const size_t n = problem->free;
+  cholmod_common *common = &problem->common;
+  problem->right = cholmod_zeros(n, 1, CHOLMOD_REAL, common);
+  cholmod_triplet *triplet =
+      cholmod_allocate_triplet(n, n, 10 * problem->mesh->tet_count, -1, CHOLMOD_REAL, common);
+  if (problem->right != NULL && triplet != NULL) {
+    for (size_t e = 0; e < problem->mesh->tet_count; e++) add_tet(problem, e, triplet);
+    problem->matrix = cholmod_triplet_to_sparse(triplet, 0, common);
+  }
+  cholmod_free_triplet(&triplet, common);
+  return problem->matrix != NULL;
+}
+
+static vsc_status solve(laplace *problem, vsc_error *error)
+{
+  cholmod_common *common = &problem->common;
+  if (!assemble(problem)) return cholmod_failure(problem, error);
+  problem->factor = cholmod_analyze(problem->matrix, common);
+  if (problem->factor == NULL) return cholmod_failure(problem, error);
+  if (!cholmod_factorize(problem->matrix, problem->factor, common) || common->status != CHOLMOD_OK)
+    return cholmod_failure(problem, error);
+  problem->solution = cholmod_solve(CHOLMOD_A, problem->factor, problem->right, common);
+  if (problem->solution == NULL) return cholmod_failure(problem, error);
+  const double *x = problem->solution->x;
+  for (size_t i = 0; i < problem->mesh->node_count; i++)
+    if (problem->number[i] >= 0) problem->depth[i] = fmin(fmax(x[problem->number[i]], 0), 1);
+  return VSC_OK;
+}
+
+static vsc_status solve_free_nodes(laplace *problem, vsc_error *error)
+{
+  cholmod_common *common = &problem->common;
+  cholmod_start(common);
+  common->print = 0;
+  common->error_handler = NULL;
+  const vsc_status status = solve(problem, error);
+  cholmod_free_dense(&problem->solution, common);
+  cholmod_free_dense(&problem->right, common);
+  cholmod_free_factor(&problem->factor, common);
+  cholmod_free_sparse(&problem->matrix, common);
+  cholmod_finish(common);
+  return status;
+}
+
+vsc_status vsc_helix_depth(const vsc_mesh *mesh, const vsc_surface *endo, const vsc_surface *epi,
+                           double *depth, vsc_error *error)
+{
+  laplace problem = {.mesh = mesh, .depth = depth};
+  if (!VSC_NEW(problem.number, mesh->node_count)) return vsc_fail_memory(error, "the depth of the wall");
+  mark_known(&problem, endo, epi);
+  vsc_status status = check_parts(&problem, error);
+  if (status == VSC_OK && problem.free > 0) status = solve_free_nodes(&problem, error);
+  vsc_free(problem.number);
+  return status;
+}
+
+// ---- From the depth to the axes
+
+// The volume-weighted mean gradient at every node, times the volume round it.
+static void nodal_gradients(const vsc_mesh *mesh, const double *depth, double *nodal)
+{
+  for (size_t e = 0; e < mesh->tet_count; e++) {
+    double gradient[3], volume;
+    gradient_of(mesh, e, depth, gradient, &volume);
+    for (int i = 0; i < 4; i++)
+      for (int a = 0; a < 3; a++)
+        nodal[3 * (size_t)mesh->tets[4 * e + (size_t)i] + (size_t)a] += volume * gradient[a];
+  }
+}
+
+// A gradient counts as zero when the depth changes by less than 1e-9 over the size of the tet.
+static void transmural_axis(const vsc_mesh *mesh, size_t tet, const double *depth,
+                            const double *nodal, double e_t[3])
+{
+  double volume;
+  gradient_of(mesh, tet, depth, e_t, &volume);
+  if (vsc_norm(e_t) * cbrt(volume) > 1e-9) return;
+  for (int a = 0; a < 3; a++) {
+    e_t[a] = 0;
+    for (int i = 0; i < 4; i++) e_t[a] += nodal[3 * (size_t)mesh->tets[4 * tet + (size_t)i] + (size_t)a];
+  }
+}
+
+static void set_axes(const vsc_mesh *mesh, const vsc_fiber_def *definition, const double *depth,
+                     const double *nodal, vsc_axes *axes)
+{
+  for (size_t e = 0; e < mesh->tet_count; e++) {
+    double e_t[3], t = 0;
+    transmural_axis(mesh, e, depth, nodal, e_t);
+    for (int i = 0; i < 4; i++) t += depth[mesh->tets[4 * e + (size_t)i]] / 4;
+    const double angle = (1 - t) * definition->endo_angle + t * definition->epi_angle;
+    axes->known[e] = vsc_helix_frame(e_t, definition->long_axis, angle, &axes->frames[9 * e]) != 0;
+  }
+}
+
+vsc_status vsc_fibers_helix(const vsc_mesh *mesh, const vsc_fiber_def *definition,
+                            const vsc_surface *endo, const vsc_surface *epi, vsc_axes *axes,
+                            vsc_error *error)
+{
+  const double length = vsc_norm(definition->long_axis);
+  if (!(isfinite(length) && length > 0))
+    return vsc_fail(error, VSC_INPUT, "helix: the long axis (%g, %g, %g) must not be zero", definition->long_axis[0],
+                    definition->long_axis[1], definition->long_axis[2]);
+  if (!isfinite(definition->endo_angle) || !isfinite(definition->epi_angle))
+    return vsc_fail(error, VSC_INPUT, "helix: the angles %g and %g must be finite", definition->endo_angle,
+                    definition->epi_angle);
+  double *depth = NULL, *nodal = NULL;
+  vsc_status status = VSC_OK;
+  if (!VSC_NEW(depth, mesh->node_count) || !VSC_NEW(nodal, 3 * mesh->node_count))
+    status = vsc_fail_memory(error, "the depth of the wall");
+  if (status == VSC_OK) status = vsc_helix_depth(mesh, endo, epi, depth, error);
+  if (status == VSC_OK) {
+    nodal_gradients(mesh, depth, nodal);
+    set_axes(mesh, definition, depth, nodal, axes);
+  }
+  vsc_free(depth);
+  vsc_free(nodal);
+  return status;
+}

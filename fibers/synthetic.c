@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fibers/synthetic.h"
+
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+#include <math.h>
+
+#include "base/mem.h"
+#include "base/vec3.h"
+
+static void constant(const vsc_fiber_def *definition, double f[3], double hint[3])
+{
+  for (int a = 0; a < 3; a++) {
+    f[a] = definition->direction[a];
+    hint[a] = definition->sheet_direction[a];
+  }
+}
+
+static void hemicircular(const double low[3], const double high[3], const double at[3], double f[3],
+                         double hint[3])
+{
+  hint[0] = at[0] - (low[0] + high[0]) / 2;
+  hint[2] = at[2] - low[2];
+  f[0] = hint[2];
+  f[2] = -hint[0];
+  if (f[0] == 0 && f[2] == 0) f[0] = 1;
+}
+
+static void helicoidal(const double low[3], const double high[3], const double at[3], double pitch,
+                       double f[3], double hint[3])
+{
+  for (int a = 0; a < 2; a++) hint[a] = at[a] - (low[a] + high[a]) / 2;
+  const double r = vsc_norm(hint);
+  f[2] = 1;
+  if (r == 0) return;
+  f[0] = -cos(pitch) * hint[1] / r;
+  f[1] = cos(pitch) * hint[0] / r;
+  f[2] = sin(pitch);
+}
+
+static vsc_status check(const vsc_fiber_def *definition, vsc_error *error)
+{
+  const double *d = definition->direction;
+  const double length = vsc_norm(d);
+  if (definition->source == VSC_FIBER_CONSTANT && !(isfinite(length) && length >= 1e-6))
+    return vsc_fail(error, VSC_INPUT, "constant fibres: direction (%g, %g, %g) must be finite and not zero", d[0],
+                    d[1], d[2]);
+  if (definition->source == VSC_FIBER_HELICOIDAL && !isfinite(definition->pitch))
+    return vsc_fail(error, VSC_INPUT, "helicoidal fibres: pitch %g must be finite", definition->pitch);
+  return VSC_OK;
+}
+
+vsc_status vsc_fibers_synthetic(const vsc_mesh *mesh, const vsc_fiber_def *definition, vsc_axes *axes,
+                                vsc_error *error)
+{
+  const vsc_status status = check(definition, error);
+  if (status != VSC_OK) return status;
+  gsl_rng *random = NULL;
+  if (definition->source == VSC_FIBER_RANDOM) {
+    gsl_error_handler_t *handler = gsl_set_error_handler_off();
+    random = gsl_rng_alloc(gsl_rng_mt19937);
+    gsl_set_error_handler(handler);
+    if (random == NULL) return vsc_fail_memory(error, "the random fibres");
+    gsl_rng_set(random, definition->seed);
+  }
+  double low[3], high[3];
+  vsc_mesh_box(mesh, low, high);
+  for (size_t e = 0; e < mesh->tet_count; e++) {
+    double at[3], f[3] = {0}, hint[3] = {0};
+    vsc_mesh_tet_centre(mesh, e, at);
+    switch (definition->source) {
+      case VSC_FIBER_CONSTANT: constant(definition, f, hint); break;
+      case VSC_FIBER_HORIZONTAL: f[0] = 1; break;
+      case VSC_FIBER_DIAGONAL: f[0] = f[2] = 1; break;
+      case VSC_FIBER_HEMICIRCULAR: hemicircular(low, high, at, f, hint); break;
+      case VSC_FIBER_HELICOIDAL: helicoidal(low, high, at, definition->pitch, f, hint); break;
+      case VSC_FIBER_RANDOM: gsl_ran_dir_3d(random, &f[0], &f[1], &f[2]); break;
+      default:
+        return vsc_fail(error, VSC_INPUT, "fibre source %d is not a formula", (int)definition->source);
+    }
+    axes->known[e] = vsc_axes_complete(f, hint, &axes->frames[9 * e]) != 0;
+  }
+  if (random != NULL) gsl_rng_free(random);
+  return VSC_OK;
+}

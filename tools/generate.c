@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `viscera generate`: the meshes and angle maps that ship with viscera, and others like them.
+#include <errno.h>
+#include <getopt.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "io/vtk.h"
+#include "tools/shapes.h"
+#include "tools/verbs.h"
+
+typedef struct wish {
+  const char *shape;  // lv, map or block
+  const char *file;
+  vsc_lv_shape lv;
+  vsc_block_shape block;
+  double endo_angle, epi_angle;  // degrees
+  double spacing;                // mm; 0: a quarter of the wall
+} wish;
+
+static void print_help(void)
+{
+  puts(
+      "Usage: viscera generate lv|map|block [OPTION]...\n"
+      "Makes a mesh or an angle map by formulas. Lengths are mm, angles degrees.\n\n"
+      "lv: a left ventricle between two half ellipsoids about z, apex at -z, cut by the plane\n"
+      "z = base; node arrays endo, epi, base, rim (0 or 1), cell array region. With map: the\n"
+      "azimuth/elevation image of its fibre helix; arrays azimuth, elevation, tissue.\n"
+      "      --endo-radius=R --endo-length=L  the cavity at the equator, from there to the apex [26, 66]\n"
+      "      --epi-radius=R --epi-length=L    the same for the outside [35.5, 73]\n"
+      "      --base=Z                         the base plane above the equator [20]\n"
+      "lv:   --around=N --along=N --layers=N  bricks of 5 tets: around (a multiple of 4), from the apical\n"
+      "                                       patch to the base, through the wall [32, 14, 3]\n"
+      "map:  --endo-angle=A --epi-angle=A     helix angles, positive is right-handed [60, -60]\n"
+      "      --spacing=H                      edge of a voxel [a quarter of the wall]\n\n"
+      "block: a box from the origin; node arrays x0 x1 y0 y1 z0 z1 (0 or 1), cell array region.\n"
+      "      --cells=NX,NY,NZ                 bricks [4,4,4]\n"
+      "      --size=X,Y,Z                     [10,10,10]\n"
+      "      --tets=5|6                       tets of a brick [5]\n"
+      "      --jitter=PART --seed=N           inner nodes moved by up to PART of a brick, 0 to 0.3 [0, 1]\n\n"
+      "  -o, --output=FILE                    [lv.vtu, lv_angles.vti, block.vtu]\n"
+      "  -h, --help                           this text\n\n"
+      "Examples:\n"
+      "  viscera generate lv -o data/lv.vtu\n"
+      "  viscera generate map --spacing 2.4 -o data/lv_angles.vti\n"
+      "  viscera generate block --cells 8,4,4 --size 40,20,20 --jitter 0.2 -o block.vtu");
+}
+
+enum {
+  ENDO_RADIUS = 256, ENDO_LENGTH, EPI_RADIUS, EPI_LENGTH, BASE, AROUND, ALONG, LAYERS, ENDO_ANGLE,
+  EPI_ANGLE, SPACING, CELLS, SIZE, TETS, JITTER, SEED
+};
+
+static const struct option options[] = {
+    {"endo-radius", required_argument, NULL, ENDO_RADIUS},
+    {"endo-length", required_argument, NULL, ENDO_LENGTH},
+    {"epi-radius", required_argument, NULL, EPI_RADIUS},
+    {"epi-length", required_argument, NULL, EPI_LENGTH},
+    {"base", required_argument, NULL, BASE},
+    {"around", required_argument, NULL, AROUND},
+    {"along", required_argument, NULL, ALONG},
+    {"layers", required_argument, NULL, LAYERS},
+    {"endo-angle", required_argument, NULL, ENDO_ANGLE},
+    {"epi-angle", required_argument, NULL, EPI_ANGLE},
+    {"spacing", required_argument, NULL, SPACING},
+    {"cells", required_argument, NULL, CELLS},
+    {"size", required_argument, NULL, SIZE},
+    {"tets", required_argument, NULL, TETS},
+    {"jitter", required_argument, NULL, JITTER},
+    {"seed", required_argument, NULL, SEED},
+    {"output", required_argument, NULL, 'o'},
+    {"help", no_argument, NULL, 'h'},
+    {NULL, 0, NULL, 0},
+};
+
+// Reads `count` numbers with commas between them; false when the text holds anything else.
+static bool read_numbers(const char *text, double *numbers, int count)
+{
+  for (int i = 0; i < count; i++) {
+    char *end;
+    numbers[i] = strtod(text, &end);
+    if (end == text || !isfinite(numbers[i]) || *end != (i + 1 < count ? ',' : '\0')) return false;
+    text = end + 1;
+  }
+  return true;
+}
+
+static bool read_counts(const char *text, size_t *counts, int count)
+{
+  double numbers[3];
+  if (!read_numbers(text, numbers, count)) return false;
+  for (int i = 0; i < count; i++) {
+    if (!(numbers[i] >= 0 && numbers[i] < 1e9) || numbers[i] != floor(numbers[i])) return false;
+    counts[i] = (size_t)numbers[i];
+  }
+  return true;
+}
+
+static bool read_option(wish *wish, int option, const char *text)
+{
+  size_t count = 0;
+  bool good;
+  switch (option) {
+    case ENDO_RADIUS: return read_numbers(text, &wish->lv.endo_radius, 1);
+    case ENDO_LENGTH: return read_numbers(text, &wish->lv.endo_length, 1);
+    case EPI_RADIUS: return read_numbers(text, &wish->lv.epi_radius, 1);
+    case EPI_LENGTH: return read_numbers(text, &wish->lv.epi_length, 1);
+    case BASE: return read_numbers(text, &wish->lv.base, 1);
+    case AROUND: return read_counts(text, &wish->lv.around, 1);
+    case ALONG: return read_counts(text, &wish->lv.along, 1);
+    case LAYERS: return read_counts(text, &wish->lv.layers, 1);
+    case ENDO_ANGLE: return read_numbers(text, &wish->endo_angle, 1);
+    case EPI_ANGLE: return read_numbers(text, &wish->epi_angle, 1);
+    case SPACING: return read_numbers(text, &wish->spacing, 1) && wish->spacing > 0;
+    case CELLS: return read_counts(text, wish->block.cells, 3);
+    case SIZE: return read_numbers(text, wish->block.size, 3);
+    case JITTER: return read_numbers(text, &wish->block.jitter, 1);
+    case TETS:
+      good = read_counts(text, &count, 1);
+      wish->block.tets_per_cell = (int)count;
+      return good;
+    default:
+      good = read_counts(text, &count, 1);
+      wish->block.seed = count;
+      return good;
+  }
+}
+
+// Writes a mesh with all its arrays, as integers.
+static vsc_status write_mesh(const char *file, const vsc_mesh *mesh, vsc_error *error)
+{
+  const size_t on_nodes = mesh->node_data.count, count = on_nodes + mesh->tet_data.count;
+  vsc_vtk_array *arrays;
+  if (!VSC_NEW(arrays, count)) return vsc_fail_memory(error, "the mesh's arrays");
+  for (size_t a = 0; a < count; a++) {
+    const bool node = a < on_nodes;
+    const vsc_array *array = node ? &mesh->node_data.items[a] : &mesh->tet_data.items[a - on_nodes];
+    arrays[a] = (vsc_vtk_array){.name = array->name, .components = array->components,
+                                .values = array->values, .on_nodes = node, .integer = true};
+  }
+  const vsc_status status =
+      vsc_vtk_write_mesh(file, mesh->node_count, mesh->nodes, mesh->tet_count, mesh->tets,
+                         mesh->triangle_count, mesh->triangles, count, arrays, false, error);
+  vsc_free(arrays);
+  return status;
+}
+
+static double mesh_volume(const vsc_mesh *mesh)
+{
+  double volume = 0;
+  for (size_t e = 0; e < mesh->tet_count; e++) volume += vsc_mesh_tet_volume(mesh, e);
+  return volume;
+}
+
+static vsc_status generate_lv(const wish *wish, const char *file, vsc_error *error)
+{
+  vsc_mesh *mesh = NULL;
+  vsc_status status = vsc_lv_mesh(&wish->lv, &mesh, error);
+  if (status == VSC_OK) status = write_mesh(file, mesh, error);
+  if (status == VSC_OK)
+    printf("%s: %zu nodes, %zu tets, wall %.1f ml, cavity %.1f ml\n", file, mesh->node_count,
+           mesh->tet_count, mesh_volume(mesh) / 1000, vsc_lv_volume(&wish->lv, 0) / 1000);
+  vsc_mesh_free(mesh);
+  return status;
+}
+
+static vsc_status generate_map(const wish *wish, const char *file, vsc_error *error)
+{
+  const double degree = M_PI / 180, wall = wish->lv.epi_radius - wish->lv.endo_radius;
+  const double spacing = wish->spacing > 0 ? wish->spacing : wall / 4;
+  vsc_image *image = NULL;
+  vsc_status status = vsc_lv_map(&wish->lv, wish->endo_angle * degree, wish->epi_angle * degree, spacing,
+                                 &image, error);
+  if (status == VSC_OK) status = vsc_vtk_write_image(file, image, error);
+  if (status == VSC_OK)
+    printf("%s: %zu x %zu x %zu voxels of %g mm\n", file, image->size[0], image->size[1], image->size[2],
+           spacing);
+  vsc_image_free(image);
+  return status;
+}
+
+static vsc_status generate_block(const wish *wish, const char *file, vsc_error *error)
+{
+  vsc_mesh *mesh = NULL;
+  vsc_status status = vsc_block_mesh(&wish->block, &mesh, error);
+  if (status == VSC_OK) status = write_mesh(file, mesh, error);
+  if (status == VSC_OK)
+    printf("%s: %zu nodes, %zu tets, %g mm3\n", file, mesh->node_count, mesh->tet_count, mesh_volume(mesh));
+  vsc_mesh_free(mesh);
+  return status;
+}
+
+static vsc_status generate(const wish *wish, vsc_error *error)
+{
+  static const struct {
+    const char *name, *file;
+    vsc_status (*make)(const struct wish *wish, const char *file, vsc_error *error);
+  } shapes[] = {{"lv", "lv.vtu", generate_lv},
+                {"map", "lv_angles.vti", generate_map},
+                {"block", "block.vtu", generate_block}};
+  for (size_t k = 0; k < sizeof shapes / sizeof shapes[0]; k++)
+    if (strcmp(wish->shape, shapes[k].name) == 0)
+      return shapes[k].make(wish, wish->file != NULL ? wish->file : shapes[k].file, error);
+  return vsc_fail(error, VSC_INPUT, "unknown shape '%s', must be lv, map or block", wish->shape);
+}
+
+int vsc_verb_generate(int argc, char **argv)
+{
+  wish wish = {.lv = vsc_lv_default(), .block = vsc_block_default(), .endo_angle = 60, .epi_angle = -60};
+  optind = 0;
+  int option, index = 0;
+  while ((option = getopt_long(argc, argv, "o:h", options, &index)) != -1) {
+    if (option == 'h') {
+      print_help();
+      return VSC_OK;
+    }
+    if (option == '?') return VSC_INPUT;
+    if (option == 'o') {
+      wish.file = optarg;
+    } else if (!read_option(&wish, option, optarg)) {
+      fprintf(stderr, "viscera generate: --%s '%s' does not fit, see `viscera generate --help`\n",
+              options[index].name, optarg);
+      return VSC_INPUT;
+    }
+  }
+  if (optind + 1 != argc) {
+    fprintf(stderr, "viscera generate: say one shape: lv, map or block, see `viscera generate --help`\n");
+    return VSC_INPUT;
+  }
+  wish.shape = argv[optind];
+  vsc_error error;
+  const vsc_status status = generate(&wish, &error);
+  if (status != VSC_OK) fprintf(stderr, "viscera generate: %s\n", error.text);
+  return status;
+}

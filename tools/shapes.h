@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Meshes and maps made from formulas: a left ventricle, a block, and the ventricle's angle map. They
+// return what a file would have held; `viscera generate` writes it, tests use it directly.
+#ifndef VSC_TOOLS_SHAPES_H
+#define VSC_TOOLS_SHAPES_H
+
+#include "mesh/image.h"
+#include "mesh/mesh.h"
+
+// A left ventricle between two half ellipsoids of revolution about z, apex at -z, cut by the plane
+// z = base. A point at depth t (0 endocardium, 1 epicardium) lies on the ellipsoid with the radius
+// (1-t) endo_radius + t epi_radius and the half length (1-t) endo_length + t epi_length.
+typedef struct vsc_lv_shape {
+  double endo_radius;  // mm, at the equator z = 0
+  double endo_length;  // mm, from the equator to the apex
+  double epi_radius;   // mm
+  double epi_length;   // mm
+  double base;         // z of the base plane, mm
+  size_t around;       // bricks round the circumference, a multiple of 4
+  size_t along;        // bricks from the apical patch to the base
+  size_t layers;       // bricks through the wall
+} vsc_lv_shape;
+
+// An adult human ventricle: cavity 134 ml, wall 9.5 mm thick at the equator and 7 mm at the apex,
+// 139 ml of tissue, 86 mm from the endocardial apex to the base; 32 x 14 x 3 bricks.
+vsc_lv_shape vsc_lv_default(void);
+
+// The volume between the ellipsoid of depth `depth` and the base plane, mm^3:
+// pi rs^2 (b + 2 rl/3 - b^3 / (3 rl^2)).
+double vsc_lv_volume(const vsc_lv_shape *shape, double depth);
+
+// Depth of a point: the t whose ellipsoid holds it, between -1 and 3 (limited to these), by bisection
+// of (x^2 + y^2) / rs(t)^2 + z^2 / rl(t)^2 = 1.
+double vsc_lv_depth(const vsc_lv_shape *shape, const double point[3]);
+
+// The frame (rows f, s, n) of the transmural helix at a point, by the convention of fibers/helix.h:
+// e_t is the normal of the ellipsoid through the point, the angle (radians) linear in vsc_lv_depth.
+void vsc_lv_frame(const vsc_lv_shape *shape, const double point[3], double endo_angle,
+                  double epi_angle, double frame[9]);
+
+// The mesh of the ventricle: a square patch at the apex and four side patches (a cubed sphere), so
+// that no element is degenerate; each brick is cut into 5 tets, neighbours mirrored so that faces
+// match. Node arrays `endo`, `epi`, `base` and `rim` (the epicardial edge of the base), 0 or 1; tet
+// array `region`, 1. The caller owns *mesh. VSC_INPUT for dimensions that make no ventricle.
+vsc_status vsc_lv_mesh(const vsc_lv_shape *shape, vsc_mesh **mesh, vsc_error *error);
+
+// The angle map of the helix on a grid of cubic voxels round the wall, with a margin of one voxel:
+// point arrays `azimuth` (degrees in [0, 180)), `elevation` (degrees in [-90, 90]) and `tissue` (1 for
+// voxel centres in the wall; elsewhere all three are 0). Angles in radians, spacing in mm. The
+// caller owns *image.
+vsc_status vsc_lv_map(const vsc_lv_shape *shape, double endo_angle, double epi_angle,
+                      double spacing, vsc_image **image, vsc_error *error);
+
+// A box from the origin to `size`, cut into bricks.
+typedef struct vsc_block_shape {
+  size_t cells[3];     // bricks along x, y, z
+  double size[3];      // mm
+  int tets_per_cell;   // 5 (neighbours mirrored) or 6 (round the brick's main diagonal)
+  double jitter;       // inner nodes are moved by up to this part of a brick along each axis, 0 to 0.3
+  unsigned long seed;  // of the jitter
+} vsc_block_shape;
+
+// 4 x 4 x 4 bricks of 5 tets in a cube of 10 mm, no jitter.
+vsc_block_shape vsc_block_default(void);
+
+// The mesh of the box: node arrays x0, x1, y0, y1, z0, z1, 0 or 1, for its six faces; tet array
+// `region`, 1. VSC_INPUT for an empty box or a jitter that turns a tet over. The caller owns *mesh.
+vsc_status vsc_block_mesh(const vsc_block_shape *shape, vsc_mesh **mesh, vsc_error *error);
+
+#endif
