@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // VTK files behind plain C. The only door to VTK; no exception and no VTK message gets through it.
+// Calls from several threads are served one after the other.
 #ifndef VSC_IO_VTK_H
 #define VSC_IO_VTK_H
 
@@ -12,12 +13,14 @@
 // it (vsc_mesh_clean). Coordinates are multiplied by `unit` (mm per unit). Tets are kept, triangles
 // are kept as surface triangles, other cells are counted and ignored. Every numeric point array
 // comes as node data, every numeric cell array as tet data and as triangle data. VSC_INPUT with the
-// file's name for a missing, truncated, empty or foreign file. The caller owns *mesh.
+// file's name for a missing, truncated, empty or foreign file, arrays of the wrong length and all
+// that vsc_mesh_clean refuses. The caller owns *mesh.
 vsc_status vsc_vtk_read_mesh(const char *file, double unit, vsc_mesh **mesh, vsc_error *error);
 
-// Reads an image (.vti), origin, spacing and direction honoured, lengths multiplied by `unit`. Point
-// and cell arrays both come (cell arrays on the image of cell centres); a file that has both kinds
-// with data is read by its point arrays. The caller owns *image.
+// Reads an image (.vti, or legacy .vtk structured points), origin, spacing and direction honoured,
+// lengths multiplied by `unit`. Point and cell arrays both come (cell arrays on the image of cell
+// centres); a file that has both kinds with data is read by its point arrays. Errors as above; an
+// image without numeric arrays is one. The caller owns *image.
 vsc_status vsc_vtk_read_image(const char *file, double unit, vsc_image **image, vsc_error *error);
 
 // One array to write, borrowed for the call.
@@ -29,8 +32,10 @@ typedef struct vsc_vtk_array {
   bool integer;          // written as Int32
 } vsc_vtk_array;
 
-// Writes nodes, tets and arrays as .vtu: appended raw binary, zlib, UInt64 headers, Float32 or
-// (double_precision) Float64; to a temporary name in the same folder, renamed when complete.
+// Writes nodes, tets, triangles (behind the tets; 0 of them are fine) and arrays as .vtu: appended
+// raw binary, zlib, UInt64 headers, Float32 or (double_precision) Float64; to a temporary name in
+// the same folder, renamed when complete. Arrays on tets are 0 on the triangles. VSC_SYSTEM when the
+// file cannot be written; what was there before stays then.
 vsc_status vsc_vtk_write_mesh(const char *file, size_t node_count, const double *nodes,
                               size_t tet_count, const uint32_t *tets, size_t triangle_count,
                               const uint32_t *triangles, size_t array_count,

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The writing half of vtk.h.
+#include <climits>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkIntArray.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkTypeInt32Array.h>
+#include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLImageDataWriter.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+extern "C" {
+#include "io/replace.h"
+#include "io/vtk.h"
+}
+#include "io/vtk_quiet.hh"
+
+namespace {
+
+using vsc::guarded;
+using vsc::silence;
+
+// zlib's quickest level: a frame's numbers are hardly smaller at the higher ones, which take
+// several times as long.
+constexpr int COMPRESSION_LEVEL = 1;
+
+int to_int(double value)
+{
+  if (std::isnan(value)) return 0;
+  return (int)std::lrint(std::fmin(std::fmax(value, INT_MIN), INT_MAX));
+}
+
+// A VTK array of type `Array` with `given` tuples of values, followed by zeros up to `tuples`.
+template <typename Array>
+vtkSmartPointer<vtkDataArray> make_array(const char *name, int components, size_t given,
+                                         size_t tuples, const double *values)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples((vtkIdType)tuples);
+  auto *to = array->GetPointer(0);
+  const size_t numbers = given * (size_t)components, all = tuples * (size_t)components;
+  for (size_t i = 0; i < numbers; i++) {
+    if constexpr (std::is_same_v<Array, vtkIntArray>) to[i] = to_int(values[i]);
+    else to[i] = static_cast<typename Array::ValueType>(values[i]);
+  }
+  for (size_t i = numbers; i < all; i++) to[i] = 0;
+  return vtkSmartPointer<vtkDataArray>(array.GetPointer());
+}
+
+vtkSmartPointer<vtkDataArray> make_real(const char *name, int components, size_t given,
+                                        size_t tuples, const double *values, bool double_precision)
+{
+  return double_precision
+           ? make_array<vtkDoubleArray>(name, components, given, tuples, values)
+           : make_array<vtkFloatArray>(name, components, given, tuples, values);
+}
+
+// The tets followed by the triangles, as cells.
+template <typename Array>
+void set_cells(vtkUnstructuredGrid *grid, size_t tet_count, const uint32_t *tets,
+               size_t triangle_count, const uint32_t *triangles)
+{
+  const size_t corners = 4 * tet_count + 3 * triangle_count;
+  vtkNew<Array> offsets, points;
+  vtkNew<vtkUnsignedCharArray> types;
+  offsets->SetNumberOfValues((vtkIdType)(tet_count + triangle_count + 1));
+  points->SetNumberOfValues((vtkIdType)corners);
+  types->SetNumberOfValues((vtkIdType)(tet_count + triangle_count));
+  using number = typename Array::ValueType;
+  number *start = offsets->GetPointer(0), *point = points->GetPointer(0);
+  start[0] = 0;
+  for (size_t i = 0; i < tet_count + triangle_count; i++) {
+    start[i + 1] = start[i] + (i < tet_count ? 4 : 3);
+    types->SetValue((vtkIdType)i, i < tet_count ? VTK_TETRA : VTK_TRIANGLE);
+  }
+  for (size_t i = 0; i < 4 * tet_count; i++) *point++ = (number)tets[i];
+  for (size_t i = 0; i < 3 * triangle_count; i++) *point++ = (number)triangles[i];
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(offsets, points);
+  grid->SetCells(types, cells);
+}
+
+// Runs a VTK writer on a temporary file that replaces `file` when all is written.
+template <typename Writer>
+vsc_status write_file(const char *file, vtkDataObject *object, vsc_error *error)
+{
+  char temporary[VSC_FILE_NAME];
+  const vsc_status status = vsc_replace_begin(file, temporary, error);
+  if (status != VSC_OK) return status;
+  silence quiet;
+  bool written = false;
+  try {
+    vtkNew<Writer> writer;
+    writer->SetFileName(temporary);
+    writer->SetInputDataObject(object);
+    writer->SetDataModeToAppended();
+    writer->EncodeAppendedDataOff();
+    writer->SetHeaderTypeToUInt64();
+    writer->SetCompressorTypeToZLib();
+    writer->SetCompressionLevel(COMPRESSION_LEVEL);
+    written = writer->Write() == 1 && writer->GetErrorCode() == 0 && !quiet.failed();
+  } catch (...) {
+    vsc_replace_cancel(temporary);
+    throw;
+  }
+  if (written) return vsc_replace_end(file, temporary, false, error);
+  vsc_replace_cancel(temporary);
+  return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written (VTK: %s): is the disk full?", file,
+                  quiet.said().c_str());
+}
+
+vsc_status write_mesh(const char *file, size_t node_count, const double *nodes, size_t tet_count,
+                      const uint32_t *tets, size_t triangle_count, const uint32_t *triangles,
+                      size_t array_count, const vsc_vtk_array *arrays, bool double_precision,
+                      vsc_error *error)
+{
+  const size_t cell_count = tet_count + triangle_count;
+  vtkNew<vtkUnstructuredGrid> grid;
+  vtkNew<vtkPoints> points;
+  points->SetData(make_real("Points", 3, node_count, node_count, nodes, double_precision));
+  grid->SetPoints(points);
+  if (node_count <= INT32_MAX && 4 * cell_count <= INT32_MAX)
+    set_cells<vtkTypeInt32Array>(grid, tet_count, tets, triangle_count, triangles);
+  else
+    set_cells<vtkTypeInt64Array>(grid, tet_count, tets, triangle_count, triangles);
+  for (size_t i = 0; i < array_count; i++) {
+    const vsc_vtk_array *from = &arrays[i];
+    const size_t given = from->on_nodes ? node_count : tet_count;
+    const size_t tuples = from->on_nodes ? node_count : cell_count;
+    vtkSmartPointer<vtkDataArray> array =
+      from->integer
+        ? make_array<vtkIntArray>(from->name, from->components, given, tuples, from->values)
+        : make_real(from->name, from->components, given, tuples, from->values, double_precision);
+    if (from->on_nodes) grid->GetPointData()->AddArray(array);
+    else grid->GetCellData()->AddArray(array);
+  }
+  return write_file<vtkXMLUnstructuredGridWriter>(file, grid, error);
+}
+
+vsc_status write_image(const char *file, const vsc_image *image, vsc_error *error)
+{
+  const size_t points = image->size[0] * image->size[1] * image->size[2];
+  for (int axis = 0; axis < 3; axis++)
+    if (image->size[axis] == 0 || image->size[axis] > INT_MAX)
+      return vsc_fail(error, VSC_INPUT, "%s: an image of %zu x %zu x %zu voxels cannot be written",
+                      file, image->size[0], image->size[1], image->size[2]);
+  vtkNew<vtkImageData> grid;
+  grid->SetDimensions((int)image->size[0], (int)image->size[1], (int)image->size[2]);
+  grid->SetOrigin(image->origin);
+  grid->SetSpacing(image->spacing);
+  grid->SetDirectionMatrix(image->direction);
+  for (size_t i = 0; i < image->data.count; i++) {
+    const vsc_array *from = &image->data.items[i];
+    grid->GetPointData()->AddArray(make_array<vtkFloatArray>(from->name, from->components, points,
+                                                             points, from->values));
+  }
+  return write_file<vtkXMLImageDataWriter>(file, grid, error);
+}
+
+}  // namespace
+
+vsc_status vsc_vtk_write_mesh(const char *file, size_t node_count, const double *nodes,
+                              size_t tet_count, const uint32_t *tets, size_t triangle_count,
+                              const uint32_t *triangles, size_t array_count,
+                              const vsc_vtk_array *arrays, bool double_precision, vsc_error *error)
+{
+  return guarded(file, error, [&] {
+    return write_mesh(file, node_count, nodes, tet_count, tets, triangle_count, triangles,
+                      array_count, arrays, double_precision, error);
+  });
+}
+
+vsc_status vsc_vtk_write_image(const char *file, const vsc_image *image, vsc_error *error)
+{
+  return guarded(file, error, [&] { return write_image(file, image, error); });
+}
