@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `viscera-plot DIR`, also `viscera plot DIR`: graphs and pictures of a simulation's results. A
+// program of its own, because PLplot and cairo should not be loaded by simulations.
+#include <getopt.h>
+#include <glob.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/pvd.h"
+#include "io/vtk.h"
+#include "tools/plot/page.h"
+
+enum { PATH = 4096 };
+
+typedef struct request {
+  const char *folder;
+  char output[PATH];
+  char series[PATH];   // the PVD
+  char signals[PATH];  // the CSV
+  double axis[3], from[3];
+  bool from_given, whole;
+  double time;  // s; NAN: where the cavity is smallest
+} request;
+
+static void print_help(void)
+{
+  puts(
+      "Usage: viscera plot [OPTION]... DIR\n"
+      "Draws what a simulation left in DIR (signals.csv, one .pvd series and its frames) into\n"
+      "DIR/beat.png: cavity volume, wall volume and active tension against time, and the tissue\n"
+      "at rest and where the first cavity is smallest, cut open along its long axis.\n\n"
+      "  -o, --output FILE  the PNG to write\n"
+      "      --at TIME      show the frame nearest to this time, in seconds\n"
+      "      --axis X,Y,Z   the long axis from apex to base, upwards in the picture (0,0,1)\n"
+      "      --from X,Y,Z   the direction from which to look, across the axis (widest view)\n"
+      "      --whole        don't cut the tissue open\n"
+      "  -h, --help         this text\n\n"
+      "Examples:\n"
+      "  viscera plot beat\n"
+      "  viscera plot --axis 0,1,0 --whole -o heart.png results");
+}
+
+static int fail(const vsc_error *error)
+{
+  fprintf(stderr, "viscera: plot: %s\n", error->text);
+  return error->status;
+}
+
+static vsc_status read_vector(const char *option, const char *text, double vector[3],
+                              vsc_error *error)
+{
+  char rest;
+  if (sscanf(text, "%lf,%lf,%lf%c", &vector[0], &vector[1], &vector[2], &rest) == 3 &&
+      isfinite(vector[0] + vector[1] + vector[2]) &&
+      (vector[0] != 0 || vector[1] != 0 || vector[2] != 0))
+    return VSC_OK;
+  return vsc_fail(error, VSC_INPUT, "--%s %s: expected a direction X,Y,Z such as 0,0,1", option,
+                  text);
+}
+
+static vsc_status read_time(const char *text, double *time, vsc_error *error)
+{
+  char *end;
+  *time = strtod(text, &end);
+  if (end != text && *end == '\0' && isfinite(*time)) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT, "--at %s: expected a time in seconds such as 0.3", text);
+}
+
+// Finds the files of the folder.
+static vsc_status find_files(request *wish, vsc_error *error)
+{
+  char pattern[PATH];
+  size_t length = strlen(wish->folder);
+  while (length > 1 && wish->folder[length - 1] == '/') length--;
+  if (length + 16 > PATH) return vsc_fail(error, VSC_INPUT, "the folder's name is too long");
+  snprintf(pattern, sizeof pattern, "%.*s/*.pvd", (int)length, wish->folder);
+  snprintf(wish->signals, sizeof wish->signals, "%.*s/signals.csv", (int)length, wish->folder);
+  if (wish->output[0] == '\0')
+    snprintf(wish->output, sizeof wish->output, "%.*s/beat.png", (int)length, wish->folder);
+  glob_t found = {0};
+  if (glob(pattern, 0, NULL, &found) != 0)
+    return vsc_fail(error, VSC_INPUT,
+                    "%s: there is no series (*.pvd); is this a folder that `viscera run` made?",
+                    wish->folder);
+  if (found.gl_pathc > 1)
+    vsc_fail(error, VSC_INPUT, "%s: there are %zu series (*.pvd), expected one", wish->folder,
+             found.gl_pathc);
+  else
+    snprintf(wish->series, sizeof wish->series, "%s", found.gl_pathv[0]);
+  const vsc_status status = found.gl_pathc > 1 ? VSC_INPUT : VSC_OK;
+  globfree(&found);
+  return status;
+}
+
+// The time at which the first cavity is smallest (or the active tension largest), in seconds.
+static double most_contracted(const vsc_signals *signals)
+{
+  const double *time = vsc_signals_find(signals, "time");
+  const size_t cavity = vsc_signals_next(signals, "cavity_", 0);
+  const double *tension = vsc_signals_find(signals, "active_tension_mean");
+  if (time == NULL || signals->rows == 0) return INFINITY;
+  size_t best = signals->rows - 1;
+  for (size_t r = 0; r < signals->rows; r++) {
+    if (cavity < signals->columns) {
+      const double *volume = signals->values + cavity * signals->rows;
+      if (volume[r] < volume[best]) best = r;
+    } else if (tension != NULL && tension[r] > tension[best]) {
+      best = r;
+    }
+  }
+  const size_t column = (size_t)(time - signals->values) / signals->rows;
+  return time[best] * (strcmp(signals->units[column], "ms") == 0 ? 1e-3 : 1);
+}
+
+// The frame nearest to that time.
+static size_t nearest_frame(const vsc_pvd *series, double time)
+{
+  size_t nearest = 0;
+  for (size_t f = 0; f < vsc_pvd_count(series); f++)
+    if (fabs(vsc_pvd_time(series, f) - time) < fabs(vsc_pvd_time(series, nearest) - time))
+      nearest = f;
+  return nearest;
+}
+
+// Reads the frame that shall be shown into `page`, which then refers to *mesh.
+static vsc_status read_frame(const request *wish, vsc_page *page, vsc_mesh **mesh, vsc_error *error)
+{
+  vsc_pvd *series = NULL;
+  vsc_status status = vsc_pvd_open(wish->series, HUGE_VAL, &series, error);
+  if (status != VSC_OK) return status;
+  if (vsc_pvd_count(series) == 0) {
+    vsc_pvd_free(series);
+    return vsc_fail(error, VSC_INPUT, "%s: the series has no frames", wish->series);
+  }
+  const size_t frame =
+      nearest_frame(series, isnan(wish->time) ? most_contracted(page->signals) : wish->time);
+  page->time = vsc_pvd_time(series, frame);
+  char file[2 * PATH];
+  const char *name = vsc_pvd_frame(series, frame), *slash = strrchr(wish->series, '/');
+  snprintf(file, sizeof file, "%.*s%s", name[0] == '/' ? 0 : (int)(slash + 1 - wish->series),
+           wish->series, name);
+  vsc_pvd_free(series);
+  status = vsc_vtk_read_mesh(file, 1, mesh, error);
+  if (status != VSC_OK) return status;
+  const vsc_array *displacement = vsc_arrays_find(&(*mesh)->node_data, "displacement");
+  const vsc_array *tension = vsc_arrays_find(&(*mesh)->tet_data, "active_tension");
+  if (displacement == NULL || displacement->components != 3)
+    return vsc_fail(error, VSC_INPUT, "%s: there is no point array 'displacement' of 3 components",
+                    file);
+  if (tension == NULL)
+    fprintf(stderr, "viscera: plot: %s: there is no cell array 'active_tension': not coloured\n",
+            file);
+  page->mesh = *mesh;
+  page->displacement = displacement->values;
+  page->tension = tension != NULL && tension->components == 1 ? tension->values : NULL;
+  return VSC_OK;
+}
+
+static void make_title(const request *wish, vsc_page *page)
+{
+  const char *slash = strrchr(wish->series, '/');
+  const char *name = slash == NULL ? wish->series : slash + 1;
+  snprintf(page->title, sizeof page->title, "%.*s", (int)(strlen(name) - strlen(".pvd")), name);
+}
+
+static vsc_status draw(request *wish, vsc_error *error)
+{
+  vsc_page page = {0};
+  vsc_signals *signals = NULL;
+  vsc_mesh *mesh = NULL;
+  vsc_status status = find_files(wish, error);
+  if (status == VSC_OK) status = vsc_signals_read(wish->signals, &signals, error);
+  page.signals = signals;
+  if (status == VSC_OK) status = read_frame(wish, &page, &mesh, error);
+  if (status == VSC_OK) {
+    make_title(wish, &page);
+    page.camera =
+        vsc_camera_make(mesh, wish->axis, wish->from_given ? wish->from : NULL, wish->whole);
+    status = vsc_page_draw(&page, wish->output, error);
+  }
+  vsc_mesh_free(mesh);
+  vsc_signals_free(signals);
+  return status;
+}
+
+static vsc_status read_option(int option, request *wish, vsc_error *error)
+{
+  switch (option) {
+    case 'o':
+      if (snprintf(wish->output, sizeof wish->output, "%s", optarg) < PATH - 8) return VSC_OK;
+      return vsc_fail(error, VSC_INPUT, "--output: the name is too long");
+    case 't':
+      return read_time(optarg, &wish->time, error);
+    case 'a':
+      return read_vector("axis", optarg, wish->axis, error);
+    case 'f':
+      wish->from_given = true;
+      return read_vector("from", optarg, wish->from, error);
+    case 'w':
+      wish->whole = true;
+      return VSC_OK;
+    default:
+      return vsc_fail(error, VSC_INPUT, "`viscera plot --help` lists the options");
+  }
+}
+
+int main(int argc, char **argv)
+{
+  static const struct option options[] = {
+      {"output", required_argument, NULL, 'o'}, {"at", required_argument, NULL, 't'},
+      {"axis", required_argument, NULL, 'a'},   {"from", required_argument, NULL, 'f'},
+      {"whole", no_argument, NULL, 'w'},        {"help", no_argument, NULL, 'h'},
+      {"version", no_argument, NULL, 'v'},      {0}};
+  request wish = {.axis = {0, 0, 1}, .time = NAN};
+  vsc_error error;
+  for (int option; (option = getopt_long(argc, argv, "o:h", options, NULL)) != -1;) {
+    if (option == 'h') {
+      print_help();
+      return VSC_OK;
+    }
+    if (option == 'v') {
+      puts("viscera-plot " VISCERA_VERSION);
+      return VSC_OK;
+    }
+    if (read_option(option, &wish, &error) != VSC_OK) return fail(&error);
+  }
+  if (argc - optind != 1) {
+    vsc_fail(&error, VSC_INPUT, "give one folder of results; `viscera plot --help` tells more");
+    return fail(&error);
+  }
+  wish.folder = argv[optind];
+  return draw(&wish, &error) == VSC_OK ? VSC_OK : fail(&error);
+}
