@@ -22,7 +22,7 @@ typedef struct vsc_lv_shape {
 } vsc_lv_shape;
 
 // An adult human ventricle: cavity 134 ml, wall 9.5 mm thick at the equator and 7 mm at the apex,
-// 139 ml of tissue, 86 mm from the endocardial apex to the base; 32 x 14 x 3 bricks.
+// 135 ml of tissue, 86 mm from the endocardial apex to the base; 32 x 14 x 3 bricks.
 vsc_lv_shape vsc_lv_default(void);
 
 // The volume between the ellipsoid of depth `depth` and the base plane, mm^3:
