@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mech/force.h"
+
+#include <string.h>
+
+#include "base/parallel.h"
+#include "base/vec3.h"
+#include "mech/kernel.h"
+#include "model/law_volume.h"
+
+// What the pieces of one evaluation share.
+typedef struct evaluation {
+  const vsc_model *model;
+  const double *x, *w;
+  double time;
+  vsc_scratch *scratch;
+  double *force;
+} evaluation;
+
+enum { NODES_PER_PIECE = 4096 };
+
+// The memory of one thread, cut into the arrays of a patch.
+typedef struct local_arrays {
+  double *x, *w, *f, *pressure;
+  vsc_wide *activation;
+} local_arrays;
+
+static local_arrays local_of(const evaluation *e, int thread)
+{
+  const size_t nodes = e->model->most_nodes;
+  double *memory = e->scratch->local + (size_t)thread * e->scratch->local_size;
+  local_arrays local = {.activation = (vsc_wide *)memory};
+  local.x = memory + VSC_WIDTH * e->model->most_packs;
+  local.w = local.x + 4 * nodes;
+  local.f = local.w + 4 * nodes;
+  local.pressure = local.f + 4 * nodes;
+  return local;
+}
+
+static void gather(const vsc_model *model, const vsc_patch *patch, const double *from, double *local)
+{
+  memcpy(local, from + 4 * (size_t)patch->first_node, 4 * patch->own_count * sizeof *local);
+  vsc_wide *to = (vsc_wide *)(local + 4 * (size_t)patch->own_count);
+  const uint32_t *shared = model->shared + patch->first_shared;
+  for (uint32_t n = 0; n < patch->shared_count; n++) to[n] = *(const vsc_wide *)(from + 4 * (size_t)shared[n]);
+}
+
+// The deformed volume of a shared node's group: the sum of its parts, in the order of the patches.
+static double shared_volume(const vsc_model *model, const double *partial_volume, uint32_t node)
+{
+  const size_t s = node - model->own_node_count;
+  double volume = 0;
+  for (uint32_t k = model->sum_start[s]; k < model->sum_start[s + 1]; k++)
+    volume += partial_volume[model->sum_place[k]];
+  return volume;
+}
+
+static double group_volume(const vsc_model *model, const vsc_scratch *scratch, uint32_t node)
+{
+  return node < model->own_node_count ? scratch->volume[node]
+                                      : shared_volume(model, scratch->partial_volume, node);
+}
+
+// p_n = U'(J_n) with K_n for the patch's nodes
+static void gather_pressures(const evaluation *e, const vsc_patch *patch, double *pressure)
+{
+  const vsc_model *model = e->model;
+  const size_t count = patch->own_count + patch->shared_count;
+  for (size_t n = 0; n < count; n += VSC_WIDTH) {
+    vsc_wide J = vsc_splat(1), K = vsc_splat(0);
+    for (size_t l = 0; l < VSC_WIDTH && n + l < count; l++) {
+      const uint32_t node = n + l < patch->own_count
+                                ? patch->first_node + (uint32_t)(n + l)
+                                : model->shared[patch->first_shared + (n + l) - patch->own_count];
+      J[l] = group_volume(model, e->scratch, node) / model->group_volume[node];
+      K[l] = model->group_modulus[node];
+    }
+    const vsc_wide p = vsc_volume_stress(K, J);
+    for (size_t l = 0; l < VSC_WIDTH && n + l < count; l++) pressure[n + l] = p[l];
+  }
+}
+
+// Activation of the patch's packs at this time: one number when all its elements agree. Returns the stride.
+static size_t fill_activation(const evaluation *e, const vsc_patch *patch, vsc_wide *activation)
+{
+  const vsc_model *model = e->model;
+  const vsc_material *material = &model->materials[patch->material];
+  if (material->active == VSC_ACTIVE_NONE) {
+    activation[0] = vsc_splat(0);
+    return 0;
+  }
+  if (model->amplitude == NULL && model->delay == NULL) {
+    activation[0] = vsc_splat(vsc_model_activation(model, material, 0, e->time));
+    return 0;
+  }
+  if (model->delay == NULL) {
+    const double value = vsc_curve_value(&material->curve, e->time - material->delay);
+    const vsc_wide *amplitude = (const vsc_wide *)model->amplitude + patch->first_pack;
+    for (uint32_t k = 0; k < patch->pack_count; k++) activation[k] = value * amplitude[k];
+    return 1;
+  }
+  for (uint32_t k = 0; k < patch->pack_count; k++)
+    for (int l = 0; l < VSC_WIDTH; l++)
+      activation[k][l] =
+          vsc_model_activation(model, material, VSC_WIDTH * (size_t)(patch->first_pack + k) + l, e->time);
+  return 1;
+}
+
+static void patch_volume(void *context, size_t p, int thread)
+{
+  const evaluation *e = context;
+  const vsc_patch *patch = &e->model->patches[p];
+  const local_arrays local = local_of(e, thread);
+  gather(e->model, patch, e->x, local.x);
+  const size_t count = patch->own_count + patch->shared_count;
+  memset(local.f, 0, count * sizeof *local.f);
+  const vsc_patch_work work = {.packs = e->model->packs + patch->first_pack,
+                               .pack_count = patch->pack_count, .x = local.x, .volume = local.f};
+  vsc_volume_kernel()(&work);
+  memcpy(e->scratch->volume + patch->first_node, local.f, patch->own_count * sizeof *local.f);
+  memcpy(e->scratch->partial_volume + patch->first_shared, local.f + patch->own_count,
+         patch->shared_count * sizeof *local.f);
+}
+
+static void patch_force(void *context, size_t p, int thread)
+{
+  const evaluation *e = context;
+  const vsc_model *model = e->model;
+  const vsc_patch *patch = &model->patches[p];
+  const vsc_material *material = &model->materials[patch->material];
+  const local_arrays local = local_of(e, thread);
+  const size_t count = patch->own_count + patch->shared_count;
+  // only what this material has is gathered and computed
+  const bool damping = e->w != NULL && (material->damping[0] > 0 || material->damping[1] > 0 || material->damping[2] > 0);
+  const size_t stride = fill_activation(e, patch, local.activation);
+  const bool passive = stride == 0 && local.activation[0][0] == 0;
+  gather(model, patch, e->x, local.x);
+  if (damping) gather(model, patch, e->w, local.w);
+  if (model->terms.nodal_volume) gather_pressures(e, patch, local.pressure);
+  memset(local.f, 0, 4 * count * sizeof *local.f);
+  const vsc_patch_work work = {.packs = model->packs + patch->first_pack,
+                               .pack_count = patch->pack_count, .material = material,
+                               .x = local.x, .w = local.w, .f = local.f, .pressure = local.pressure,
+                               .activation = local.activation, .activation_stride = stride};
+  vsc_force_kernel(damping, passive ? VSC_ACTIVE_NONE : material->active, model->terms.nodal_volume)(&work);
+  memcpy(e->force + 4 * (size_t)patch->first_node, local.f, 4 * patch->own_count * sizeof *local.f);
+  memcpy(e->scratch->partial + 4 * (size_t)patch->first_shared, local.f + 4 * (size_t)patch->own_count,
+         4 * patch->shared_count * sizeof *local.f);
+}
+
+// Adds the parts of the forces on shared nodes in the order of the patches.
+static void sum_shared(void *context, size_t piece, int thread)
+{
+  (void)thread;
+  const evaluation *e = context;
+  const vsc_model *model = e->model;
+  const size_t shared_nodes = model->node_count - model->own_node_count;
+  size_t end = (piece + 1) * NODES_PER_PIECE;
+  if (end > shared_nodes) end = shared_nodes;
+  const vsc_wide *partial = (const vsc_wide *)e->scratch->partial;
+  vsc_wide *force = (vsc_wide *)e->force + model->own_node_count;
+  for (size_t s = piece * NODES_PER_PIECE; s < end; s++) {
+    vsc_wide sum = vsc_splat(0);
+    for (uint32_t k = model->sum_start[s]; k < model->sum_start[s + 1]; k++)
+      sum += partial[model->sum_place[k]];
+    force[s] = sum;
+  }
+}
+
+// Each node of a triangle gets -p n/6 with n = (x_1 - x_0) x (x_2 - x_0): a follower pressure.
+static void add_pressure(const vsc_pressure *load, double pressure, const double *x, double *force)
+{
+  for (size_t t = 0; t < load->triangle_count; t++) {
+    const uint32_t *node = load->triangles + 3 * t;
+    double first[3], second[3], n[3];
+    vsc_subtract(x + 4 * (size_t)node[1], x + 4 * (size_t)node[0], first);
+    vsc_subtract(x + 4 * (size_t)node[2], x + 4 * (size_t)node[0], second);
+    vsc_cross(first, second, n);
+    for (int c = 0; c < 3; c++)
+      for (int i = 0; i < 3; i++) force[4 * (size_t)node[c] + i] -= pressure * n[i] / 6;
+  }
+}
+
+void vsc_force(const vsc_model *model, const double *x, const double *w, double time,
+               vsc_scratch *scratch, double *force)
+{
+  const vsc_terms *terms = &model->terms;
+  evaluation e = {model, x, w, time, scratch, force};
+  if (terms->nodal_volume) vsc_parallel_for(model->patch_count, patch_volume, &e);
+  vsc_parallel_for(model->patch_count, patch_force, &e);
+  const size_t shared_nodes = model->node_count - model->own_node_count;
+  vsc_parallel_for((shared_nodes + NODES_PER_PIECE - 1) / NODES_PER_PIECE, sum_shared, &e);
+  for (size_t p = 0; p < model->pressure_count; p++) {
+    const double pressure = vsc_model_pressure(model, p, time);
+    if (pressure != 0) add_pressure(&model->pressures[p], pressure, x, force);
+  }
+  if (terms->gravity)
+    for (size_t i = 0; i < 4 * model->node_count; i++) force[i] += model->weight[i];
+}
+
+void vsc_group_ratios(const vsc_model *model, const double *x, vsc_scratch *scratch, double *ratio)
+{
+  evaluation e = {model, x, NULL, 0, scratch, NULL};
+  vsc_parallel_for(model->patch_count, patch_volume, &e);
+  for (size_t n = 0; n < model->node_count; n++)
+    ratio[n] = group_volume(model, scratch, (uint32_t)n) / model->group_volume[n];
+}

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Forces on the nodes from everything in the model.
+#ifndef VSC_MECH_FORCE_H
+#define VSC_MECH_FORCE_H
+
+#include "mech/state.h"
+
+// force = sum of element forces, pressures and weight at positions `x`, velocities `w` (both
+// node_count x 4; `w` may be NULL when there is no damping) and `time` (ms); mN, node_count x 4.
+// Sums run in an order that does not depend on the number of threads. Uses the state's scratch only.
+void vsc_force(const vsc_model *model, const double *x, const double *w, double time,
+               vsc_scratch *scratch, double *force);
+
+// J of each node's volume group at `x`, into `ratio` (node_count). With node-averaged volume only.
+void vsc_group_ratios(const vsc_model *model, const double *x, vsc_scratch *scratch, double *ratio);
+
+#endif

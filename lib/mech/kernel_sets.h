@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The kernels of each instruction set. Internal to mech.
+#ifndef VSC_MECH_KERNEL_SETS_H
+#define VSC_MECH_KERNEL_SETS_H
+
+#include "mech/kernel.h"
+
+typedef struct vsc_kernels {
+  const char *name;
+  vsc_patch_kernel *force[2][3][2];  // [damping][active kind][nodal volume]
+  vsc_patch_kernel *volume;
+} vsc_kernels;
+
+extern const vsc_kernels vsc_kernels_baseline;  // whatever the compiler's default is
+#ifdef __x86_64__
+extern const vsc_kernels vsc_kernels_avx2;
+#endif
+
+#endif

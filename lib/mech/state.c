@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mech/state.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/hash.h"
+#include "base/mem.h"
+#include "base/parallel.h"
+
+static bool allocate(const vsc_model *model, vsc_state *state)
+{
+  const size_t n = model->node_count;
+  vsc_scratch *scratch = &state->scratch;
+  scratch->threads = vsc_parallel_threads();
+  // positions, velocities and forces of a patch's nodes, their pressures, the activation of its packs
+  scratch->local_size = (4 * 3 + 1) * model->most_nodes + VSC_WIDTH * (model->most_packs + 2);
+  scratch->local_size = (scratch->local_size + 7) / 8 * 8;
+  const bool nodal = model->terms.nodal_volume;
+  return VSC_NEW(state->x, 4 * n) && VSC_NEW(state->v, 4 * n) && VSC_NEW(state->a, 4 * n) &&
+         VSC_NEW(state->force, 4 * n) && VSC_NEW(state->limit.mode, 4 * n) &&
+         VSC_NEW(scratch->local, (size_t)scratch->threads * scratch->local_size) &&
+         VSC_NEW(scratch->partial, 4 * model->partial_count) &&
+         VSC_NEW(scratch->volume, nodal ? n : 0) &&
+         VSC_NEW(scratch->partial_volume, nodal ? model->partial_count : 0) &&
+         VSC_NEW(scratch->predicted, model->terms.damping ? 4 * n : 0) &&
+         VSC_NEW(scratch->trial, 3 * 4 * n);
+}
+
+vsc_status vsc_state_create(const vsc_model *model, vsc_state **state, vsc_error *error)
+{
+  *state = NULL;
+  vsc_state *made;
+  if (!VSC_NEW(made, 1) || !allocate(model, made)) {
+    vsc_state_free(made);
+    return vsc_fail_memory(error, "the state of the simulation");
+  }
+  memcpy(made->x, model->rest, 4 * model->node_count * sizeof *made->x);
+  *state = made;
+  return VSC_OK;
+}
+
+void vsc_state_free(vsc_state *state)
+{
+  if (state == NULL) return;
+  vsc_free(state->x);
+  vsc_free(state->v);
+  vsc_free(state->a);
+  vsc_free(state->force);
+  vsc_free(state->limit.mode);
+  vsc_free(state->scratch.local);
+  vsc_free(state->scratch.partial);
+  vsc_free(state->scratch.volume);
+  vsc_free(state->scratch.partial_volume);
+  vsc_free(state->scratch.predicted);
+  vsc_free(state->scratch.trial);
+  vsc_free(state);
+}
+
+size_t vsc_state_find_bad(const vsc_model *model, const vsc_state *state)
+{
+  for (size_t n = 0; n < model->node_count; n++)
+    for (int i = 0; i < 3; i++)
+      if (!isfinite(state->x[4 * n + i]) || !isfinite(state->v[4 * n + i])) return n;
+  return model->node_count;
+}
+
+uint64_t vsc_state_hash(const vsc_model *model, const vsc_state *state)
+{
+  const size_t bytes = 4 * model->node_count * sizeof(double);
+  uint64_t hash = vsc_hash(VSC_HASH_START, &state->time, sizeof state->time);
+  hash = vsc_hash(hash, state->x, bytes);
+  hash = vsc_hash(hash, state->v, bytes);
+  return vsc_hash(hash, state->a, bytes);
+}

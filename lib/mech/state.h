@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Everything that moves. Arrays are in the model's node order, four doubles a node (x, y, z, 0).
+#ifndef VSC_MECH_STATE_H
+#define VSC_MECH_STATE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/status.h"
+#include "model/model.h"
+
+// What the estimate of the stable step remembers (step_limit.h).
+typedef struct vsc_limit {
+  double eigenvalue;  // largest of M^-1 (K + 4/dt C), 1/ms^2; 0: not estimated yet
+  double step;        // the step that is allowed now: safety . 2 / sqrt(1.1 eigenvalue), ms
+  double time;        // when it was estimated, ms
+  double interval;    // how long the estimate is trusted, ms
+  double refreshes;   // estimates so far
+  double *mode;       // node_count x 4: the eigenvector so far; owned
+} vsc_limit;
+
+// Memory of the computation, rewritten at each use.
+typedef struct vsc_scratch {
+  double *local;          // threads x local_size: the nodes and forces of one patch
+  size_t local_size;
+  int threads;
+  double *partial;        // partial_count x 4: parts of the forces on shared nodes, mN
+  double *volume;         // node_count: deformed volume of the nodes' groups (own nodes), mm^3
+  double *partial_volume; // partial_count: parts of the same for shared nodes
+  double *predicted;      // node_count x 4: velocity at the end of the step, when there is damping
+  double *trial;          // node_count x 4 x 3: positions, velocities and forces of the step estimate
+} vsc_scratch;
+
+typedef struct vsc_state {
+  double time;          // ms
+  double steps;         // done so far (an integer)
+  double *x;            // node_count x 4: position, mm; owned
+  double *v;            // node_count x 4: velocity, mm/ms; owned
+  double *a;            // node_count x 4: acceleration at x, v, time, mm/ms^2; owned
+  double *force;        // node_count x 4: total force behind a, mN; owned
+  vsc_limit limit;
+  vsc_scratch scratch;
+} vsc_state;
+
+// The state of `model` at rest at time 0, its acceleration still to be computed (vsc_start). Nothing
+// is allocated after this. Must be created after the number of threads is set. The caller owns *state.
+vsc_status vsc_state_create(const vsc_model *model, vsc_state **state, vsc_error *error);
+
+void vsc_state_free(vsc_state *state);  // NULL is fine
+
+// The first node whose position or velocity is not finite, or node_count.
+size_t vsc_state_find_bad(const vsc_model *model, const vsc_state *state);
+
+// Hash of time, x, v and a: equal for equal bits.
+uint64_t vsc_state_hash(const vsc_model *model, const vsc_state *state);
+
+#endif

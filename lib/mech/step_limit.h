@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The stable time step of explicit stepping, from the largest eigenvalue of the actual system.
+#ifndef VSC_MECH_STEP_LIMIT_H
+#define VSC_MECH_STEP_LIMIT_H
+
+#include "mech/state.h"
+
+// Re-estimates the largest eigenvalue lambda of M^-1 (K + 4/dt C), K and C the tangent stiffness and
+// damping at the state's positions and the given time, and sets
+//   limit.step = safety . 2 / sqrt(1.1 lambda).
+// Velocity Verlet with the predicted velocity in the damping force is stable for
+// dt^2 k + 4 dt c <= 4, that is for dt = 2 / sqrt(lambda). Power iteration on differences of forces,
+// `iterations` of them, from the vector of the last estimate (random at the first).
+void vsc_limit_refresh(const vsc_model *model, vsc_state *state, double time, int iterations);
+
+// An upper bound of lambda at rest without damping that needs no iteration, with the element behind it:
+//   lambda <= max_e sum_{i in e} D_i / M_i,  D_i = sum_e V (K + A) |B_i|^2
+// (the element eigenvalue with the assembled nodal mass shared in proportion to stiffness). `slot` is the
+// element that limits the step. A = max(E_a, 2 G_ab), active stiffness and tension included; with node-averaged
+// volume the bound holds too (the average is never stiffer), but is further off.
+double vsc_limit_bound(const vsc_model *model, vsc_scratch *scratch, size_t *slot);
+
+#endif

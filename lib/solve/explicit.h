@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Explicit stepping: Stoermer-Verlet in its velocity form.
+#ifndef VSC_SOLVE_EXPLICIT_H
+#define VSC_SOLVE_EXPLICIT_H
+
+#include "mech/state.h"
+
+// Prepares a new state for stepping: the first estimate of the stable step, at rest and at full activation (the
+// smaller counts), and the first acceleration. Refuses (VSC_INPUT) a user's step above the stable
+// one, with both numbers.
+vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error);
+
+// One step of length dt (ms):
+//   v <- v + dt/2 a;  x <- x + dt v;  a <- f(x, v + dt/2 a, t + dt) / m;  v <- v + dt/2 a.
+// Second order, symplectic without damping. Damping sees the velocity predicted for the step's end.
+void vsc_step(const vsc_model *model, vsc_state *state, double dt);
+
+// Steps from state->time to `until` (ms) in equal steps not longer than the stable one, which is
+// re-estimated at least every millisecond. VSC_NUMERICAL when a position or velocity is no longer
+// finite or a user's step has become unstable: the message names node, place and time.
+vsc_status vsc_advance(const vsc_model *model, vsc_state *state, double until, vsc_error *error);
+
+#endif
