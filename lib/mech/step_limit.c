@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "mech/element.h"
 #include "mech/force.h"
 
 // Numbers in [-1, 1) that are the same everywhere (a 64-bit linear congruential generator, Knuth's MMIX).
@@ -85,12 +86,6 @@ void vsc_limit_refresh(const vsc_model *model, vsc_state *state, double time, in
   limit->refreshes++;
 }
 
-static uint32_t node_of(const vsc_model *model, const vsc_patch *patch, uint16_t local)
-{
-  return local < patch->own_count ? patch->first_node + local
-                                  : model->shared[patch->first_shared + local - patch->own_count];
-}
-
 // K + A of a material; A bounds the tangent of the axial (E_a) and angular (2 G_ab) springs at rest.
 static double stiffest(const vsc_material *material)
 {
@@ -120,7 +115,7 @@ static void add_node_stiffness(const vsc_model *model, double *stiffness)
       for (int c = 0; c < 4; c++)
         for (int l = 0; l < VSC_WIDTH; l++) {
           const vsc_pack *pack = &model->packs[k];
-          stiffness[node_of(model, patch, pack->node[c][l])] +=
+          stiffness[vsc_node_of(model, patch, pack->node[c][l])] +=
               pack->V[l] * modulus * gradient_square(pack, c, l);
         }
   }
@@ -138,7 +133,7 @@ double vsc_limit_bound(const vsc_model *model, vsc_scratch *scratch, size_t *slo
       if (model->mesh_tet[k] == VSC_NO_TET) continue;
       double sum = 0;
       for (int c = 0; c < 4; c++) {
-        const uint32_t node = node_of(model, patch, model->packs[k / VSC_WIDTH].node[c][k % VSC_WIDTH]);
+        const uint32_t node = vsc_node_of(model, patch, model->packs[k / VSC_WIDTH].node[c][k % VSC_WIDTH]);
         sum += stiffness[node] / model->mass[node];
       }
       if (sum > most) *slot = k;
