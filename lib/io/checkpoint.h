@@ -17,13 +17,15 @@ typedef struct vsc_block {
   double *values;     // rows x columns
 } vsc_block;
 
-// Writes the blocks, with attributes "format" ("viscera checkpoint"), "version", "model_hash", and each
-// block's unit, to a temporary name, renamed when complete. Numbers are kept bit for bit.
+// Writes the blocks, with attributes "format" ("viscera checkpoint"), "version", "model_hash", and
+// each block's unit, to a temporary name, renamed when complete and on the disk. Numbers are kept
+// bit for bit, under checksums. VSC_SYSTEM when that fails; what was there before stays then.
 vsc_status vsc_checkpoint_write(const char *file, uint64_t model_hash, size_t block_count,
                                 const vsc_block *blocks, vsc_error *error);
 
-// Reads into blocks whose names and shapes say what is expected. VSC_INPUT when the file is missing,
-// is no checkpoint, has another version or model hash, or lacks a block of that shape.
+// Reads into blocks whose names and shapes say what is expected. VSC_INPUT when the file is
+// missing, is no checkpoint, has another version or model hash, lacks a block of that shape or is damaged;
+// values of blocks may then have been overwritten.
 vsc_status vsc_checkpoint_read(const char *file, uint64_t model_hash, size_t block_count,
                                const vsc_block *blocks, vsc_error *error);
 

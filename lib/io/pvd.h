@@ -11,14 +11,16 @@ typedef struct vsc_pvd vsc_pvd;
 
 // A list that will be written to `file`, empty. With `keep_until` >= 0 (seconds) the frames of an
 // existing file whose times are below it (by more than 1e-9 s) are kept: that is how a resumed run
-// trims its series. A missing file is an empty list.
+// trims its series. A missing file is an empty list; one that is no PVD or is cut short is
+// VSC_INPUT. Nothing is written yet. On success the caller owns *pvd.
 vsc_status vsc_pvd_open(const char *file, double keep_until, vsc_pvd **pvd, vsc_error *error);
 
 // Appends a frame (time in seconds, file name relative to the PVD) and rewrites the list under a
-// temporary name, renamed: the file on disk is complete and valid at every moment.
+// temporary name, renamed: the file on disk is complete and valid at every moment. Times must rise;
+// VSC_INPUT for one that does not, VSC_SYSTEM when the file cannot be written.
 vsc_status vsc_pvd_add(vsc_pvd *pvd, double time, const char *frame, vsc_error *error);
 
-size_t vsc_pvd_count(const vsc_pvd *pvd);
+size_t vsc_pvd_count(const vsc_pvd *pvd);                    // frames
 double vsc_pvd_time(const vsc_pvd *pvd, size_t frame);       // seconds
 const char *vsc_pvd_frame(const vsc_pvd *pvd, size_t frame); // file name, owned by the list
 
