@@ -12,6 +12,7 @@
 #include "io/pvd.h"
 #include "io/scene.h"
 #include "io/vtk.h"
+#include "mesh/quality.h"
 #include "mesh/select.h"
 #include "tools/verbs.h"
 
@@ -75,39 +76,16 @@ static void print_box(const double low[3], const double high[3])
          high[2] - low[2]);
 }
 
-// The mean ratio 12 (3 V)^(2/3) / sum of the squared edges (Liu & Joe): 1 for a regular tet, 0 for
-// a flat one.
-static double mean_ratio(const vsc_mesh *mesh, size_t tet)
-{
-  const uint32_t *node = mesh->tets + 4 * tet;
-  double squares = 0;
-  for (int i = 0; i < 4; i++)
-    for (int j = i + 1; j < 4; j++) {
-      double edge[3];
-      vsc_subtract(mesh->nodes + 3 * (size_t)node[i], mesh->nodes + 3 * (size_t)node[j], edge);
-      squares += vsc_dot(edge, edge);
-    }
-  return 12 * pow(3 * vsc_mesh_tet_volume(mesh, tet), 2.0 / 3) / squares;
-}
-
 static void print_quality(const vsc_mesh *mesh)
 {
-  double volume = 0, sum = 0, worst = INFINITY, centre[3];
-  size_t worst_tet = 0, poor = 0;
-  for (size_t t = 0; t < mesh->tet_count; t++) {
-    const double ratio = mean_ratio(mesh, t);
-    volume += vsc_mesh_tet_volume(mesh, t);
-    sum += ratio;
-    poor += ratio < 0.2;
-    if (ratio >= worst) continue;
-    worst = ratio;
-    worst_tet = t;
-  }
-  vsc_mesh_tet_centre(mesh, worst_tet, centre);
-  printf("  volume                 %g\n", volume);
+  vsc_quality_summary q;
+  if (vsc_mesh_quality(mesh, &q, NULL) != VSC_OK) return;
+  const double *at = q.worst_centre[0];
+  printf("  volume                 %g\n", q.volume);
+  printf("  edges                  %g to %g\n", q.shortest_edge, q.longest_edge);
   printf("  quality (mean ratio)   mean %.3f, worst %.3f (cell %u at %g, %g, %g), %zu below 0.2\n",
-         sum / (double)mesh->tet_count, worst, mesh->tet_source[worst_tet], centre[0], centre[1],
-         centre[2], poor);
+         q.mean_ratio_mean, q.worst[0].mean_ratio, q.worst_source[0], at[0], at[1], at[2], q.poor);
+  printf("  angles between faces   %.1f to %.1f degrees\n", q.min_dihedral, q.max_dihedral);
 }
 
 static void print_mesh(const vsc_mesh *mesh)

@@ -14,6 +14,14 @@ enum { LINES = 6, GRAPHS = 3 };
 // Colours of PLplot's table.
 enum { INK = 1, GRID = 2, MARK = 3, FIRST_LINE = 4 };
 
+static const PLINT colours[FIRST_LINE + LINES][3] = {
+    {255, 255, 255}, {50, 50, 55},  {226, 226, 230}, {150, 120, 125}, {178, 24, 43},
+    {33, 102, 172},  {27, 120, 55}, {118, 42, 131},  {191, 129, 45},  {80, 80, 80}};
+
+// The edges of a graph, as shares of the width.
+static const double LEFT = 0.085, RIGHT = 0.985;
+static const double HEADING = 0.045;  // above a graph, share of the height
+
 typedef struct line {
   char name[VSC_NAME];
   double *values;  // one per row, owned
@@ -21,6 +29,7 @@ typedef struct line {
 
 typedef struct graph {
   const char *title;
+  bool unnamed;       // its one line needs no legend
   double least_span;  // of the vertical axis: noise is not blown up beyond this
   bool from_zero;     // the vertical axis starts at 0
   size_t count;
@@ -64,7 +73,7 @@ static vsc_status make_cavities(const vsc_signals *signals, graph *g, vsc_error 
 
 static vsc_status make_wall(const vsc_signals *signals, graph *g, vsc_error *error)
 {
-  *g = (graph){.title = "Wall volume, change from rest [%]", .least_span = 0.1};
+  *g = (graph){.title = "Wall volume, change from rest [%]", .unnamed = true, .least_span = 0.1};
   const double *volume = vsc_signals_find(signals, "wall_volume");
   if (volume == NULL) left_out("wall volume", "wall_volume");
   if (volume == NULL) return VSC_OK;
@@ -103,38 +112,32 @@ static void find_range(const graph *g, size_t rows, double *low, double *high)
   if (!g->from_zero || *low < 0) *low -= lacking / 2 + 0.08 * (*high - *low);
 }
 
-// Text that PLplot prints as it is.
-static void escape(const char *text, char escaped[2 * VSC_NAME])
+static void use_colour(cairo_t *cairo, size_t colour)
 {
-  size_t n = 0;
-  for (; *text != '\0' && n + 3 < 2 * VSC_NAME; text++) {
-    if (*text == '#') escaped[n++] = '#';
-    escaped[n++] = *text;
-  }
-  escaped[n] = '\0';
+  const PLINT *c = colours[colour];
+  cairo_set_source_rgb(cairo, c[0] / 255.0, c[1] / 255.0, c[2] / 255.0);
 }
 
 // The names of the lines, each behind a piece of its line, above the graph on the right.
-static void draw_legend(const graph *g)
+static void draw_legend(const graph *g, cairo_t *cairo, double right, double bottom)
 {
-  if (g->count < 2 && strcmp(g->lines[0].name, "wall") == 0) return;
-  char texts[LINES][2 * VSC_NAME];
-  const char *names[LINES];
-  PLINT options[LINES], inks[LINES], colours[LINES], styles[LINES];
-  PLFLT widths[LINES], legend_width, legend_height;
-  for (size_t k = 0; k < g->count; k++) {
-    escape(g->lines[k].name, texts[k]);
-    names[k] = texts[k];
-    options[k] = PL_LEGEND_LINE;
-    inks[k] = INK;
-    colours[k] = FIRST_LINE + (PLINT)k;
-    styles[k] = 1;
-    widths[k] = 2.5;
+  if (g->unnamed) return;
+  cairo_select_font_face(cairo, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cairo, 14);
+  cairo_set_line_width(cairo, 2.5);
+  for (size_t k = g->count; k-- > 0;) {
+    cairo_text_extents_t extents;
+    cairo_text_extents(cairo, g->lines[k].name, &extents);
+    right -= extents.x_advance;
+    use_colour(cairo, INK);
+    cairo_move_to(cairo, right, bottom);
+    cairo_show_text(cairo, g->lines[k].name);
+    use_colour(cairo, FIRST_LINE + k);
+    cairo_move_to(cairo, right - 34, bottom - 5);
+    cairo_rel_line_to(cairo, 26, 0);
+    cairo_stroke(cairo);
+    right -= 58;
   }
-  pllegend(&legend_width, &legend_height, PL_LEGEND_ROW_MAJOR,
-           PL_POSITION_TOP | PL_POSITION_RIGHT | PL_POSITION_OUTSIDE, 0.0, 0.005, 0.03, 0, INK, 1,
-           1, (PLINT)g->count, (PLINT)g->count, options, 0.6, 0.9, 2.0, 0.0, inks, names, NULL,
-           NULL, NULL, NULL, colours, styles, widths, NULL, NULL, NULL, NULL);
 }
 
 static void draw_graph(const graph *g, const vsc_signals *signals, const double *seconds,
@@ -143,7 +146,7 @@ static void draw_graph(const graph *g, const vsc_signals *signals, const double 
   const double end = signals->rows > 1 ? seconds[signals->rows - 1] : seconds[0] + 1;
   double low, high;
   find_range(g, signals->rows, &low, &high);
-  plvpor(0.085, 0.985, bottom, top);
+  plvpor(LEFT, RIGHT, bottom, top);
   plwind(seconds[0], end, low, high);
   plwidth(1);
   plcol0(GRID);
@@ -165,18 +168,15 @@ static void draw_graph(const graph *g, const vsc_signals *signals, const double 
   plbox(last ? "bcnst" : "bcst", 0, 0, "bcnstv", 0, 0);
   plmtex("t", 0.9, 0.0, 0.0, g->title);
   if (last) plmtex("b", 3.0, 0.5, 0.5, "Time [s]");
-  draw_legend(g);
 }
 
 // PLplot, drawing into a cairo context of ours; it needs no display.
 static void open_plplot(cairo_t *cairo, double width, double height)
 {
-  static const PLINT table[FIRST_LINE + LINES][3] = {
-      {255, 255, 255}, {50, 50, 55},  {226, 226, 230}, {150, 120, 125}, {178, 24, 43},
-      {33, 102, 172},  {27, 120, 55}, {118, 42, 131},  {191, 129, 45},  {80, 80, 80}};
   // Without its cairo driver PLplot would ask on stdin for another one.
   if (freopen("/dev/null", "r", stdin) == NULL) return;
-  for (PLINT k = 0; k < FIRST_LINE + LINES; k++) plscol0(k, table[k][0], table[k][1], table[k][2]);
+  for (PLINT k = 0; k < FIRST_LINE + LINES; k++)
+    plscol0(k, colours[k][0], colours[k][1], colours[k][2]);
   plspage(0, 0, (PLINT)width, (PLINT)height, 0, 0);
   plsdev("extcairo");
   plinit();
@@ -216,19 +216,25 @@ vsc_status vsc_graphs_draw(cairo_t *cairo, double width, double height, const vs
   vsc_status status = make_cavities(signals, &graphs[0], error);
   if (status == VSC_OK) status = make_wall(signals, &graphs[1], error);
   if (status == VSC_OK) status = make_tension(signals, &graphs[2], error);
-  int present = 0, drawn = 0;
+  int present = 0, drawn = 0, before = 0;
   for (int g = 0; g < GRAPHS; g++) present += graphs[g].count > 0;
+  const double below = 0.06, share = (1 - below) / present;  // of the height
   if (status == VSC_OK && present > 0) {
+    cairo_save(cairo);  // PLplot turns it upside down
     open_plplot(cairo, width, height);
-    const double below = 0.06, share = (1 - below) / present;
     for (int g = 0; g < GRAPHS; g++) {
       if (graphs[g].count == 0) continue;
-      const double floor = 1 - (drawn + 1) * share;
       drawn++;
-      draw_graph(&graphs[g], signals, seconds, floor + share - 0.045, floor + 0.012, mark,
+      const double floor = 1 - drawn * share;
+      draw_graph(&graphs[g], signals, seconds, floor + share - HEADING, floor + 0.012, mark,
                  drawn == present);
     }
     plend();
+    cairo_restore(cairo);
+  }
+  for (int g = 0; g < GRAPHS; g++) {
+    if (graphs[g].count == 0) continue;
+    draw_legend(&graphs[g], cairo, RIGHT * width, ((before++) * share + HEADING) * height - 9);
   }
   for (int g = 0; g < GRAPHS; g++) free_graph(&graphs[g]);
   vsc_free(seconds);

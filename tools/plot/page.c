@@ -15,7 +15,7 @@ enum {
   HEIGHT = 1040,
   MARGIN = 36,
   HEAD = 92,  // title
-  GRAPHS_RIGHT = 930,
+  GRAPHS_RIGHT = 800,
   CAPTION = 56,  // above each picture
   FOOT = 96,     // bar and scale below the pictures
   FINE = 3,      // pictures are drawn this much larger, then shrunk
@@ -153,6 +153,7 @@ static double tick_step(double span)
 static void draw_bar(cairo_t *cairo, double x, double y, double width, double largest)
 {
   const int steps = 200;
+  cairo_set_antialias(cairo, CAIRO_ANTIALIAS_NONE);
   for (int k = 0; k < steps; k++) {
     double colour[3];
     vsc_view_colour((k + 0.5) / steps, colour);
@@ -160,6 +161,7 @@ static void draw_bar(cairo_t *cairo, double x, double y, double width, double la
     cairo_rectangle(cairo, x + k * width / steps, y, width / steps + 0.5, 16);
     cairo_fill(cairo);
   }
+  cairo_set_antialias(cairo, CAIRO_ANTIALIAS_DEFAULT);
   cairo_set_source_rgb(cairo, INK[0], INK[1], INK[2]);
   cairo_set_line_width(cairo, 1);
   cairo_rectangle(cairo, x - 0.5, y - 0.5, width + 1, 17);
@@ -214,7 +216,7 @@ static vsc_status draw_pictures(const vsc_page *page, cairo_t *cairo, vsc_error 
     put_picture(cairo, moved, &boxes[1], rest);
     write_caption(cairo, &boxes[0], "At rest",
                   page->camera.whole ? "" : "cut open along the long axis");
-    write_caption(cairo, &boxes[1], "Most contracted", text);
+    write_caption(cairo, &boxes[1], page->chosen ? "Moved" : "Most contracted", text);
     draw_scale(cairo, GRAPHS_RIGHT + 40, HEIGHT - FOOT + 42, scale);
     if (largest > 0)
       draw_bar(cairo, GRAPHS_RIGHT + 300, HEIGHT - FOOT + 34, WIDTH - GRAPHS_RIGHT - MARGIN - 340,

@@ -137,6 +137,7 @@ static vsc_status read_frame(const request *wish, vsc_page *page, vsc_mesh **mes
   const size_t frame =
       nearest_frame(series, isnan(wish->time) ? most_contracted(page->signals) : wish->time);
   page->time = vsc_pvd_time(series, frame);
+  page->chosen = !isnan(wish->time);
   char file[2 * PATH];
   const char *name = vsc_pvd_frame(series, frame), *slash = strrchr(wish->series, '/');
   snprintf(file, sizeof file, "%.*s%s", name[0] == '/' ? 0 : (int)(slash + 1 - wish->series),

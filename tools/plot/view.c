@@ -102,11 +102,11 @@ void vsc_camera_extend(const vsc_camera *camera, const vsc_mesh *mesh, const dou
 
 void vsc_view_colour(double share, double colour[3])
 {
-  static const double stops[5][3] = {{0.93, 0.82, 0.73},
-                                     {0.94, 0.64, 0.47},
-                                     {0.85, 0.36, 0.30},
-                                     {0.64, 0.10, 0.22},
-                                     {0.33, 0.02, 0.20}};
+  static const double stops[5][3] = {{0.94, 0.83, 0.74},
+                                     {0.95, 0.68, 0.50},
+                                     {0.88, 0.42, 0.34},
+                                     {0.73, 0.17, 0.25},
+                                     {0.50, 0.05, 0.25}};
   const double place = 4 * fmin(fmax(share, 0), 1);
   const int stop = place >= 4 ? 3 : (int)place;
   for (int k = 0; k < 3; k++)
@@ -146,8 +146,9 @@ static void shade(const vsc_vertex *vertex, int kind, const void *context, float
   vsc_normalize(normal);
   if (normal[2] > 0)
     for (int k = 0; k < 3; k++) normal[k] = -normal[k];
-  const double lit = fmax(0, vsc_dot(normal, light));
-  double bright = 0.42 + 0.62 * lit, shine = 0.16 * pow(fmax(0, vsc_dot(normal, halfway)), 24);
+  const double lit = (1 + vsc_dot(normal, light)) / 2;  // the shaded side is no plain black
+  double bright = 0.40 + 0.66 * lit * lit,
+         shine = 0.10 * pow(fmax(0, vsc_dot(normal, halfway)), 24);
   if (kind == VSC_KIND_CUT) {
     bright = 1.0;
     shine = 0;
