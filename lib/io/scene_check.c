@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What can be said about a scene before its mesh is read: files, names, ranges.
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/vec3.h"
+#include "io/scene_reading.h"
+
+vsc_status vsc_scene_file_exists(vsc_reading *reading, const char *file)
+{
+  struct stat found;
+  if (stat(file, &found) != 0)
+    return vsc_reading_fail(reading, "%s: %s; expected a file, relative names count from the "
+                            "scene's folder", file, strerror(errno));
+  if (!S_ISREG(found.st_mode)) return vsc_reading_fail(reading, "%s: not a file", file);
+  if (access(file, R_OK) != 0)
+    return vsc_reading_fail(reading, "%s: %s; make it readable", file, strerror(errno));
+  return VSC_OK;
+}
+
+vsc_status vsc_scene_resolve(vsc_reading *reading, const char *file, char resolved[VSC_PATH])
+{
+  const char *slash = strrchr(reading->file, '/');
+  const int folder = file[0] == '/' || slash == NULL ? 0 : (int)(slash + 1 - reading->file);
+  const int length = snprintf(resolved, VSC_PATH, "%.*s%s", folder, reading->file, file);
+  if (length >= VSC_PATH)
+    return vsc_reading_fail(reading, "\"%.60s...\": a file name of more than %d bytes; shorten it",
+                            file, VSC_PATH - 1);
+  return VSC_OK;
+}
+
+vsc_status vsc_selector_finish(vsc_reading *reading, const vsc_slot *slots, void *target)
+{
+  const vsc_selector *selector = target;
+  (void)slots;
+  if ((int)selector->kind < 0)
+    return vsc_reading_fail(reading, "says not where; give node_array, triangle_array, box, plane "
+                            "or boundary (a node set also: surface)");
+  const bool array = selector->kind == VSC_SELECT_NODE_ARRAY ||
+                     selector->kind == VSC_SELECT_TRIANGLE_ARRAY;
+  if (array && isnan(selector->low))
+    return vsc_reading_fail(reading, "an array without value or range; give value: 1 or range: "
+                            "[0.5, 1.5]");
+  return VSC_OK;
+}
+
+// Fails for `key` unless it holds the name of a surface.
+static vsc_status need_surface(vsc_reading *reading, const vsc_definition *d, const char *name)
+{
+  const char *names[65] = {"boundary"};
+  size_t count = 1;
+  if (strcmp(name, names[0]) == 0) return VSC_OK;
+  for (size_t i = 0; i < d->surface_count; i++) {
+    if (strcmp(name, d->surfaces[i].name) == 0) return VSC_OK;
+    if (count < 65) names[count++] = d->surfaces[i].name;
+  }
+  const char *nearest = vsc_nearest(name, names, count);
+  return vsc_reading_fail(reading, "no surface is named \"%s\"%s%s; define it under surfaces", name,
+                          nearest != NULL ? ", the nearest is " : "",
+                          nearest != NULL ? nearest : "");
+}
+
+static vsc_status check_wall(vsc_reading *reading, const vsc_definition *d, const char *key,
+                             const char *name, double angle)
+{
+  char angle_key[16];
+  snprintf(angle_key, sizeof angle_key, "%s_angle", key);
+  const size_t length = vsc_enter(reading, key);
+  const vsc_status status = need_surface(reading, d, name);
+  if (status != VSC_OK) return status;
+  vsc_leave(reading, length);
+  vsc_enter(reading, angle_key);
+  if (!(fabs(angle) <= M_PI / 2))
+    return vsc_reading_fail(reading, "%g deg; expected -90 deg to 90 deg", angle * 180 / M_PI);
+  vsc_leave(reading, length);
+  return VSC_OK;
+}
+
+static vsc_status check_helix(vsc_reading *reading, const vsc_scene *scene)
+{
+  const vsc_fiber_def *fibers = &scene->fibers;
+  const size_t length = vsc_enter(reading, "fibers.helix");
+  vsc_status status =
+      check_wall(reading, &scene->definition, "endo", fibers->endo, fibers->endo_angle);
+  if (status == VSC_OK)
+    status = check_wall(reading, &scene->definition, "epi", fibers->epi, fibers->epi_angle);
+  if (status != VSC_OK) return status;
+  vsc_enter(reading, "long_axis");
+  if (!(vsc_norm(fibers->long_axis) > 0))
+    return vsc_reading_fail(reading, "zero; expected a vector from apex to base");
+  vsc_leave(reading, length);
+  return VSC_OK;
+}
+
+static vsc_status check_fibers(vsc_reading *reading, const vsc_scene *scene)
+{
+  vsc_status status = VSC_OK;
+  if (scene->fibers.source == VSC_FIBER_MAP) {
+    vsc_enter(reading, "fibers.map.file");
+    if (scene->fibers.map.file[0] == '\0')
+      return vsc_reading_fail(reading, "missing; give the image of the angles: angles.vti");
+    status = vsc_scene_file_exists(reading, scene->fibers.map.file);
+  } else if (scene->fibers.source == VSC_FIBER_CONSTANT) {
+    vsc_enter(reading, "fibers.constant.fiber");
+    if (!(vsc_norm(scene->fibers.direction) > 0))
+      return vsc_reading_fail(reading, "zero or missing; expected a direction such as [1, 0, 0]");
+  } else if (scene->fibers.source == VSC_FIBER_HELIX) {
+    status = check_helix(reading, scene);
+  }
+  if (status == VSC_OK) vsc_leave(reading, 0);
+  return status;
+}
+
+static vsc_status check_interval(vsc_reading *reading, const char *key, double value, bool zero)
+{
+  vsc_enter(reading, key);
+  if (value < 0 || (value == 0 && !zero))
+    return vsc_reading_fail(reading, "%g ms; expected %s", value,
+                            zero ? "a time, or 0 ms for only at the end" : "a time above zero");
+  vsc_leave(reading, 0);
+  return VSC_OK;
+}
+
+static vsc_status check_output(vsc_reading *reading, const vsc_scene *scene)
+{
+  const vsc_output_def *output = &scene->output;
+  vsc_status status = check_interval(reading, "output.frames", output->frame_interval, false);
+  if (status == VSC_OK)
+    status = check_interval(reading, "output.signals", output->signal_interval, false);
+  if (status == VSC_OK)
+    status = check_interval(reading, "output.checkpoint", output->checkpoint_interval, true);
+  for (size_t i = 0; i < output->cavity_count && status == VSC_OK; i++) {
+    vsc_enter(reading, "output.cavities");
+    vsc_enter_item(reading, i);
+    status = need_surface(reading, &scene->definition, output->cavities[i]);
+    if (status == VSC_OK) vsc_leave(reading, 0);
+  }
+  return status;
+}
+
+vsc_status vsc_scene_check(vsc_reading *reading, const vsc_scene *scene)
+{
+  vsc_error found;
+  vsc_enter(reading, "mesh.file");
+  vsc_status status = vsc_scene_file_exists(reading, scene->mesh_file);
+  if (status != VSC_OK) return status;
+  vsc_leave(reading, 0);
+  status = vsc_definition_check(&scene->definition, &found);
+  if (status != VSC_OK) return vsc_reading_locate(reading, &found);
+  status = check_fibers(reading, scene);
+  return status == VSC_OK ? check_output(reading, scene) : status;
+}

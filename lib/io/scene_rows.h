@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Shorthands in which the tables of the scene's keys are written. Only for the scene_table*.c files.
+#ifndef VSC_IO_SCENE_ROWS_H
+#define VSC_IO_SCENE_ROWS_H
+
+#include <math.h>
+#include <stddef.h>
+
+#include "io/scene_reading.h"
+
+#define LENGTH(array) (sizeof(array) / sizeof(array)[0])
+#define AT(type, field) .offset = offsetof(type, field), .size = sizeof(((type *)NULL)->field)
+#define VECTOR(type, field, what) \
+  .kind = VSC_ROW_VECTOR, .quantity = what, AT(type, field), \
+  .count = sizeof(((type *)NULL)->field) / sizeof(double)
+#define QUANTITY(type, field, what) .kind = VSC_ROW_QUANTITY, .quantity = what, AT(type, field)
+#define UNIT(type, field, what) .kind = VSC_ROW_UNIT, .quantity = what, AT(type, field)
+#define NUMBER(type, field) QUANTITY(type, field, VSC_NUMBER)
+#define NAME(type, field) .kind = VSC_ROW_NAME, AT(type, field)
+#define CHOICE(type, field, list) .kind = VSC_ROW_CHOICE, AT(type, field), .words = list
+#define LIST_AT(type, field, counter) \
+  .offset = offsetof(type, field), .count_offset = offsetof(type, counter)
+#define PART(offset_, group_) .kind = VSC_ROW_GROUP, .offset = offset_, .group = &group_
+#define PARTS(type, field, counter, group_) \
+  .kind = VSC_ROW_GROUPS, LIST_AT(type, field, counter), .group = &group_
+// The group `name` of the rows `name`_rows; `scope` is static or nothing.
+#define GROUP(scope, name, kind_, ...) \
+  static cyaml_schema_field_t name##_fields[LENGTH(name##_rows) + 1]; \
+  scope const vsc_group name = {.rows = name##_rows, .row_count = LENGTH(name##_rows), \
+                          .fields = name##_fields, .kind_offset = kind_, __VA_ARGS__}
+#define BIT(kind) (1u << (kind))
+
+extern const vsc_group vsc_surface_group;   // an item of surfaces; vsc_selector
+extern const vsc_group vsc_node_set_group;  // an item of node_sets; vsc_selector
+extern const vsc_group vsc_fiber_group;     // vsc_fiber_def
+extern const vsc_group vsc_material_group;  // an item of materials; vsc_material_def
+extern const vsc_group vsc_support_group;   // an item of supports; vsc_support_def
+extern const vsc_group vsc_pressure_group;  // an item of pressures; vsc_pressure_def
+
+#endif

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The keys of the scene's outermost level, and how rows and words are looked up.
+#include <stdio.h>
+#include <string.h>
+
+#include "io/scene_rows.h"
+
+// ---- mesh
+
+static const vsc_row mesh_rows[] = {
+    {"file", .kind = VSC_ROW_PATH, AT(vsc_scene, mesh_file), .needed = VSC_ALWAYS, .text = "mesh.vtu",
+     .meaning = "tetrahedra, .vtu or legacy .vtk; relative to this scene's folder"},
+    {"unit", UNIT(vsc_scene, mesh_unit, VSC_LENGTH), .needed = VSC_ALWAYS, .text = "mm",
+     .meaning = "length of one unit of its coordinates: mm, m, 0.1 mm"},
+    {"region_array", NAME(vsc_scene, definition.region_array), .commented = true, .text = "region",
+     .meaning = "cell array of region numbers; absent: one region, 0"},
+};
+GROUP(static, mesh, -1);
+
+// ---- time and output
+
+static const vsc_row time_rows[] = {
+    {"end", QUANTITY(vsc_definition, end_time, VSC_TIME), .needed = VSC_ALWAYS, .text = "1.6 s",
+     .meaning = "simulated time"},
+    {"step", QUANTITY(vsc_definition, step, VSC_TIME), .zero_word = "auto", .text = "auto",
+     .meaning = "auto: from the stable step; or a time, refused above it"},
+    {"safety", NUMBER(vsc_definition, safety), .text = "0.8",
+     .meaning = "auto: fraction of the stable step that is taken"},
+};
+GROUP(static, time, -1);
+
+static const vsc_word precisions[] = {{"single", false}, {"double", true}, {NULL, 0}};
+static const vsc_word frame_arrays[] = {
+    {"displacement", 0}, {"velocity", 0},       {"fiber", 0},     {"sheet", 0},
+    {"normal", 0},       {"active_tension", 0}, {"stretch_f", 0}, {"volume_ratio", 0},
+    {"region", 0},       {NULL, 0},
+};
+
+static const vsc_row output_rows[] = {
+    {"frames", QUANTITY(vsc_output_def, frame_interval, VSC_TIME), .text = "10 ms",
+     .meaning = "between VTU frames"},
+    {"precision", CHOICE(vsc_output_def, double_precision, precisions), .text = "single",
+     .meaning = "of the frames; or double"},
+    {"arrays", .kind = VSC_ROW_NAMES, LIST_AT(vsc_output_def, arrays, array_count),
+     .count = VSC_OUTPUT_ARRAYS, .words = frame_arrays,
+     .text = "[displacement, velocity, fiber, sheet, normal, active_tension, stretch_f, "
+             "volume_ratio, region]",
+     .meaning = "of the frames; []: the usual ones"},
+    {"signals", QUANTITY(vsc_output_def, signal_interval, VSC_TIME), .text = "1 ms",
+     .meaning = "between rows of signals.csv"},
+    {"cavities", .kind = VSC_ROW_NAMES, LIST_AT(vsc_output_def, cavities, cavity_count),
+     .count = VSC_OUTPUT_ARRAYS, .text = "[endo]",
+     .meaning = "surfaces whose (capped) volume is a signal"},
+    {"checkpoint", QUANTITY(vsc_output_def, checkpoint_interval, VSC_TIME), .text = "0 ms",
+     .meaning = "between checkpoints; 0 ms: only at the end"},
+};
+GROUP(static, output, -1);
+
+// ---- the scene
+
+static const vsc_word volumes[] = {{"nodal", VSC_VOLUME_NODAL},
+                                   {"element", VSC_VOLUME_ELEMENT},
+                                   {NULL, 0}};
+
+#define SCENE_PARTS(items, counter, group_) \
+  PARTS(vsc_scene, definition.items, definition.counter, group_)
+
+static const vsc_row vsc_scene_group_rows[] = {
+    {"mesh", PART(0, mesh), .needed = VSC_ALWAYS, .meaning = "what is simulated"},
+    {"surfaces", SCENE_PARTS(surfaces, surface_count, vsc_surface_group),
+     .meaning = "parts of the boundary, by name; \"boundary\" is all of it"},
+    {"node_sets", SCENE_PARTS(sets, set_count, vsc_node_set_group),
+     .meaning = "sets of nodes, by name"},
+    {"fibers", PART(offsetof(vsc_scene, fibers), vsc_fiber_group),
+     .meaning = "where the fibre axes come from; absent: no fibres"},
+    {"materials", SCENE_PARTS(materials, material_count, vsc_material_group), .needed = VSC_ALWAYS,
+     .meaning = "tissues"},
+    {"volume", CHOICE(vsc_scene, definition.volume, volumes), .text = "nodal",
+     .meaning = "elements that share a volume ratio: all round a node; or element: each alone"},
+    {"supports", SCENE_PARTS(supports, support_count, vsc_support_group),
+     .meaning = "what holds the tissue"},
+    {"gravity", VECTOR(vsc_scene, definition.gravity, VSC_ACCELERATION),
+     .text = "[0 m/s2, 0 m/s2, 0 m/s2]", .meaning = "default none"},
+    {"pressures", SCENE_PARTS(pressures, pressure_count, vsc_pressure_group),
+     .meaning = "that follow their surface"},
+    {"time", PART(offsetof(vsc_scene, definition), time), .needed = VSC_ALWAYS,
+     .meaning = "how long"},
+    {"output", PART(offsetof(vsc_scene, output), output), .meaning = "what is written"},
+};
+GROUP(, vsc_scene_group, -1, .size = sizeof(vsc_scene));
+
+// ---- looking up
+
+const vsc_row *vsc_group_find(const vsc_group *group, const char *key)
+{
+  for (size_t i = 0; i < group->row_count; i++)
+    if (strcmp(group->rows[i].key, key) == 0) return &group->rows[i];
+  return NULL;
+}
+
+const char *vsc_slot_text(const vsc_group *group, const vsc_slot *slots, const char *key)
+{
+  return slots[vsc_group_find(group, key) - group->rows].value;
+}
+
+enum { MOST_WORDS = 32 };
+
+// "<head>a, b, c" and the nearest of `words` to `word`.
+static void list_words(const char *word, const char *const *words, size_t count, const char *head,
+                       char *text, size_t size)
+{
+  size_t used = (size_t)snprintf(text, size, "%s", head);
+  for (size_t i = 0; i < count && used < size; i++)
+    used += (size_t)snprintf(text + used, size - used, i == 0 ? "%s" : ", %s", words[i]);
+  const char *nearest = vsc_nearest(word, words, count);
+  if (nearest != NULL && used < size)
+    snprintf(text + used, size - used, "; did you mean %s?", nearest);
+}
+
+void vsc_group_hint(const vsc_group *group, const char *key, char *text, size_t size)
+{
+  const char *keys[MOST_WORDS] = {NULL};
+  size_t count = 0;
+  for (; count < group->row_count && count < MOST_WORDS; count++)
+    keys[count] = group->rows[count].key;
+  list_words(key, keys, count, "known here: ", text, size);
+}
+
+void vsc_words_hint(const vsc_word *words, const char *word, char *text, size_t size)
+{
+  const char *list[MOST_WORDS] = {NULL};
+  size_t count = 0;
+  for (; words[count].word != NULL && count < MOST_WORDS; count++) list[count] = words[count].word;
+  list_words(word, list, count, "expected one of ", text, size);
+}
+
+int vsc_group_kind(const vsc_group *group, const void *target)
+{
+  int kind = -1;
+  if (group->kind_offset >= 0)
+    memcpy(&kind, (const char *)target + group->kind_offset, sizeof kind);
+  return kind;
+}
+
+bool vsc_row_allowed(const vsc_row *row, int kind)
+{
+  return row->allowed == 0 || (kind >= 0 && (row->allowed >> kind & 1) != 0);
+}
+
+const char *vsc_row_text(const vsc_group *group, const vsc_row *row)
+{
+  return strcmp(row->text, "*") == 0 ? group->example : row->text;
+}
+
+const char *vsc_word_of(const vsc_word *words, int value)
+{
+  for (; words->word != NULL; words++)
+    if (words->value == value) return words->word;
+  return "?";
+}

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The keys of curves, materials, supports and loads.
+#include "io/scene_rows.h"
+
+// ---- curves
+
+static const vsc_word curve_kinds[] = {
+    {"constant", VSC_CURVE_CONSTANT},       {"ramp", VSC_CURVE_RAMP},
+    {"half_sine", VSC_CURVE_HALF_SINE},     {"double_hill", VSC_CURVE_DOUBLE_HILL},
+    {"tanh_pair", VSC_CURVE_TANH_PAIR},     {"table", VSC_CURVE_TABLE},
+    {NULL, 0},
+};
+
+enum {
+  STARTING = BIT(VSC_CURVE_RAMP) | BIT(VSC_CURVE_HALF_SINE) | BIT(VSC_CURVE_DOUBLE_HILL) |
+             BIT(VSC_CURVE_TANH_PAIR),
+  LASTING = BIT(VSC_CURVE_RAMP) | BIT(VSC_CURVE_HALF_SINE) | BIT(VSC_CURVE_TANH_PAIR),
+  SMOOTH = BIT(VSC_CURVE_DOUBLE_HILL) | BIT(VSC_CURVE_TANH_PAIR),
+  HILL = BIT(VSC_CURVE_DOUBLE_HILL),
+  TABLE = BIT(VSC_CURVE_TABLE),
+};
+
+static void start_curve(void *target)
+{
+  vsc_curve_def *curve = target;
+  *curve = vsc_default_curve(curve->kind);
+}
+
+static const vsc_row vsc_curve_group_rows[] = {
+    {"kind", CHOICE(vsc_curve_def, kind, curve_kinds), .needed = VSC_ALWAYS, .after = start_curve,
+     .text = "half_sine",
+     .meaning = "constant, ramp, half_sine, double_hill, tanh_pair, table; 0 at rest, 1 at the peak"},
+    {"start", QUANTITY(vsc_curve_def, start, VSC_TIME), .allowed = STARTING, .text = "100 ms",
+     .meaning = "default 0 ms"},
+    {"duration", QUANTITY(vsc_curve_def, duration, VSC_TIME), .allowed = LASTING, .text = "300 ms",
+     .meaning = "ramp, half_sine, tanh_pair"},
+    {"rise", QUANTITY(vsc_curve_def, rise, VSC_TIME), .allowed = SMOOTH, .commented = true,
+     .text = "100 ms", .meaning = "double_hill: time constant; tanh_pair: steepness, default 20 ms"},
+    {"fall", QUANTITY(vsc_curve_def, fall, VSC_TIME), .allowed = SMOOTH, .commented = true,
+     .text = "300 ms", .meaning = "likewise; tanh_pair: default 20 ms"},
+    {"rise_power", NUMBER(vsc_curve_def, rise_power), .allowed = HILL, .commented = true,
+     .text = "2", .meaning = "double_hill"},
+    {"fall_power", NUMBER(vsc_curve_def, fall_power), .allowed = HILL, .commented = true,
+     .text = "20", .meaning = "double_hill"},
+    {"file", .kind = VSC_ROW_TEXT, .allowed = TABLE, .input_only = true, .commented = true,
+     .text = "curve.csv", .meaning = "table: CSV with two columns, time and value; '#' comments"},
+    {"time_unit", .kind = VSC_ROW_TEXT, .allowed = TABLE, .input_only = true, .commented = true,
+     .text = "ms", .meaning = "of the first column"},
+    {"times", .kind = VSC_ROW_SERIES, .quantity = VSC_TIME,
+     LIST_AT(vsc_curve_def, times, point_count), .allowed = TABLE, .commented = true,
+     .text = "[0 ms, 150 ms, 400 ms]", .meaning = "table without a file: its points,"},
+    {"values", .kind = VSC_ROW_SERIES, .quantity = VSC_NUMBER,
+     LIST_AT(vsc_curve_def, values, point_count), .allowed = TABLE, .commented = true,
+     .text = "[0, 1, 0]", .meaning = "and the values there"},
+    {"period", QUANTITY(vsc_curve_def, period, VSC_TIME), .text = "800 ms",
+     .meaning = "after which it repeats; default 0 ms: never"},
+};
+GROUP(, vsc_curve_group, offsetof(vsc_curve_def, kind), .finish = vsc_curve_finish);
+
+// ---- materials
+
+static const vsc_word active_kinds[] = {{"none", VSC_ACTIVE_NONE},
+                                        {"spring", VSC_ACTIVE_SPRING},
+                                        {"tension", VSC_ACTIVE_TENSION},
+                                        {NULL, 0}};
+enum {
+  OF_SPRING = BIT(VSC_ACTIVE_NONE) | BIT(VSC_ACTIVE_SPRING),
+  OF_TENSION = BIT(VSC_ACTIVE_NONE) | BIT(VSC_ACTIVE_TENSION),
+};
+
+static const vsc_row active_rows[] = {
+    {"kind", CHOICE(vsc_active_def, kind, active_kinds), .needed = VSC_ALWAYS, .text = "tension",
+     .meaning = "none, spring (the fibre stiffens and shortens), tension"},
+    {"tension", QUANTITY(vsc_active_def, tension, VSC_PRESSURE), .allowed = OF_TENSION,
+     .needed = BIT(VSC_ACTIVE_TENSION), .text = "60 kPa", .meaning = "along the fibre at the peak"},
+    {"stiffness", QUANTITY(vsc_active_def, stiffness, VSC_PRESSURE), .allowed = OF_SPRING,
+     .needed = BIT(VSC_ACTIVE_SPRING), .commented = true, .text = "200 kPa",
+     .meaning = "spring: fibre modulus at the peak"},
+    {"rest_stretch", NUMBER(vsc_active_def, rest_stretch), .allowed = OF_SPRING, .commented = true,
+     .text = "0.8", .meaning = "spring: rest stretch at the peak; default 1"},
+    {"delay", QUANTITY(vsc_active_def, delay, VSC_TIME), .text = "0 ms",
+     .meaning = "of the curve in this tissue"},
+    {"amplitude_array", NAME(vsc_active_def, amplitude_array), .commented = true, .text = "amplitude",
+     .meaning = "cell array that multiplies the curve"},
+    {"delay_array", NAME(vsc_active_def, delay_array), .commented = true, .text = "delay",
+     .meaning = "cell array added to the delay"},
+    {"delay_unit", UNIT(vsc_active_def, delay_unit, VSC_TIME), .commented = true, .text = "1 ms",
+     .meaning = "of delay_array"},
+    {"curve", PART(offsetof(vsc_active_def, curve), vsc_curve_group), .meaning = "of time"},
+};
+GROUP(static, active, offsetof(vsc_active_def, kind));
+
+static const vsc_row axial_rows[] = {
+    {"f", QUANTITY(vsc_material_def, axial[0], VSC_PRESSURE), .needed = VSC_ALWAYS,
+     .text = "10 kPa", .meaning = "along the fibre"},
+    {"s", QUANTITY(vsc_material_def, axial[1], VSC_PRESSURE), .needed = VSC_ALWAYS,
+     .text = "5 kPa", .meaning = "along the sheet"},
+    {"n", QUANTITY(vsc_material_def, axial[2], VSC_PRESSURE), .needed = VSC_ALWAYS,
+     .text = "5 kPa", .meaning = "along the normal"},
+};
+GROUP(static, axial, -1);
+
+static const vsc_row angular_rows[] = {
+    {"fs", QUANTITY(vsc_material_def, angular[0], VSC_PRESSURE), .needed = VSC_ALWAYS,
+     .text = "3 kPa", .meaning = "between fibre and sheet"},
+    {"sn", QUANTITY(vsc_material_def, angular[1], VSC_PRESSURE), .needed = VSC_ALWAYS,
+     .text = "3 kPa", .meaning = "between sheet and normal"},
+    {"nf", QUANTITY(vsc_material_def, angular[2], VSC_PRESSURE), .needed = VSC_ALWAYS,
+     .text = "3 kPa", .meaning = "between normal and fibre"},
+};
+GROUP(static, angular, -1);
+
+static const vsc_row damping_rows[] = {
+    {"f", QUANTITY(vsc_material_def, damping[0], VSC_VISCOSITY), .text = "10 Pa s",
+     .meaning = "along the fibre; default 0 Pa s"},
+    {"s", QUANTITY(vsc_material_def, damping[1], VSC_VISCOSITY), .text = "10 Pa s",
+     .meaning = "along the sheet"},
+    {"n", QUANTITY(vsc_material_def, damping[2], VSC_VISCOSITY), .text = "10 Pa s",
+     .meaning = "along the normal"},
+};
+GROUP(static, damping, -1);
+
+static const vsc_row vsc_material_group_rows[] = {
+    {"name", NAME(vsc_material_def, name), .needed = VSC_ALWAYS, .text = "myocardium",
+     .meaning = "for reports"},
+    {"regions", .kind = VSC_ROW_INTEGERS, LIST_AT(vsc_material_def, regions, region_count),
+     .count = LENGTH(((vsc_material_def *)NULL)->regions), .commented = true, .text = "[1, 2]",
+     .meaning = "values of mesh.region_array; absent: every element no other material names"},
+    {"density", QUANTITY(vsc_material_def, density, VSC_DENSITY), .text = "1.06 g/cm3",
+     .meaning = "at rest"},
+    {"axial", PART(0, axial), .needed = VSC_ALWAYS, .meaning = "springs along the frame's axes"},
+    {"angular", PART(0, angular), .needed = VSC_ALWAYS, .meaning = "springs between the axes"},
+    {"damping", PART(0, damping), .meaning = "axial viscosity"},
+    {"volume_modulus", QUANTITY(vsc_material_def, volume_modulus, VSC_PRESSURE),
+     .needed = VSC_ALWAYS, .text = "1 MPa", .meaning = "against a change of volume"},
+    {"stabilization", QUANTITY(vsc_material_def, stabilization, VSC_PRESSURE), .text = "10 kPa",
+     .meaning = "the same of each element, beside volume: nodal; default 0 kPa"},
+    {"active", PART(offsetof(vsc_material_def, active), active), .meaning = "contraction"},
+};
+
+static void start_material(void *target)
+{
+  *(vsc_material_def *)target = vsc_default_material();
+}
+
+GROUP(, vsc_material_group, -1, .size = sizeof(vsc_material_def), .start = start_material);
+
+// ---- supports and loads
+
+static const vsc_word directions[] = {{"x", 0}, {"y", 1}, {"z", 2}, {NULL, 0}};
+
+static const vsc_row vsc_support_group_rows[] = {
+    {"set", NAME(vsc_support_def, set), .needed = VSC_ALWAYS, .text = "base",
+     .meaning = "one of node_sets"},
+    {"held", .kind = VSC_ROW_FLAGS, AT(vsc_support_def, held), .words = directions,
+     .needed = VSC_ALWAYS, .text = "[x, y, z]", .meaning = "directions that cannot move"},
+};
+GROUP(, vsc_support_group, -1, .size = sizeof(vsc_support_def));
+
+static const vsc_row vsc_pressure_group_rows[] = {
+    {"surface", NAME(vsc_pressure_def, surface), .needed = VSC_ALWAYS, .text = "endo",
+     .meaning = "one of surfaces, or boundary; pushed against its outward normal"},
+    {"peak", QUANTITY(vsc_pressure_def, peak, VSC_PRESSURE), .needed = VSC_ALWAYS,
+     .text = "16 kPa", .meaning = "where the curve is 1"},
+    {"curve", PART(offsetof(vsc_pressure_def, curve), vsc_curve_group),
+     .meaning = "of time; absent: constant"},
+};
+
+static void start_pressure(void *target)
+{
+  ((vsc_pressure_def *)target)->curve = vsc_default_curve(VSC_CURVE_CONSTANT);
+}
+
+GROUP(, vsc_pressure_group, -1, .size = sizeof(vsc_pressure_def), .start = start_pressure);
