@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Installs into a folder of its own, moves it, and builds a user's program against it twice: by
+# pkg-config and by find_package.
+# cmake -DBUILD= -DWORK= -DCC= -DFLAGS= -DBINDIR= -DLIBDIR= -DDATADIR= -P tests/test_install.cmake
+cmake_minimum_required(VERSION 3.25)
+set(prefix ${WORK}/moved)
+
+function(run)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE failed
+                  OUTPUT_VARIABLE said ERROR_VARIABLE said)
+  if(failed)
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "${command}\nfailed (${failed}):\n${said}")
+  endif()
+  set(said "${said}" PARENT_SCOPE)
+endfunction()
+
+function(expect text)
+  if(NOT said MATCHES "${text}")
+    message(FATAL_ERROR "expected '${text}', was told '${said}'")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/first)
+file(RENAME ${WORK}/first ${prefix})
+
+file(WRITE ${WORK}/user.c [[
+#include <stdio.h>
+#include <viscera.h>
+
+int main(void)
+{
+  const double nodes[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 6};
+  const uint32_t tet[4] = {0, 1, 2, 3};
+  vsc_mesh *mesh = NULL;
+  vsc_error error;
+  if (vsc_mesh_from_arrays(4, nodes, 1, tet, &mesh, &error) != VSC_OK) return puts(error.text), 1;
+  printf("volume %g\n", vsc_mesh_tet_volume(mesh, 0));
+  vsc_mesh_free(mesh);
+  return 0;
+}
+]])
+
+# By pkg-config.
+set(ENV{PKG_CONFIG_PATH} ${prefix}/${LIBDIR}/pkgconfig)
+run(pkg-config --cflags --libs viscera)
+separate_arguments(flags UNIX_COMMAND "${said} ${FLAGS}")
+run(${CC} -std=gnu17 user.c -o user ${flags} -Wl,-rpath,${prefix}/${LIBDIR})
+run(./user)
+expect("volume 1\n")
+
+# By find_package.
+file(WRITE ${WORK}/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
+project(user C)
+find_package(viscera 0.1 REQUIRED CONFIG)
+add_executable(user user.c)
+target_link_libraries(user PRIVATE viscera::viscera)
+")
+run(${CMAKE_COMMAND} -S . -B build -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_C_COMPILER=${CC}
+    "-DCMAKE_C_FLAGS=-std=gnu17 ${FLAGS}")
+run(${CMAKE_COMMAND} --build build)
+run(build/user)
+expect("volume 1\n")
+
+# The installed programs find their library, each other and the data.
+run(${prefix}/${BINDIR}/viscera --version)
+expect("^viscera [0-9]+\\.[0-9]+")
+if(EXISTS ${prefix}/${BINDIR}/viscera-plot)
+  run(${prefix}/${BINDIR}/viscera plot --help)
+  expect("Usage: viscera plot")
+endif()
+run(${prefix}/${BINDIR}/viscera info ${prefix}/${DATADIR}/viscera/lv.vtu)
+expect("tets")
+file(REMOVE_RECURSE ${WORK})
