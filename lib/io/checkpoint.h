@@ -24,8 +24,8 @@ vsc_status vsc_checkpoint_write(const char *file, uint64_t model_hash, size_t bl
                                 const vsc_block *blocks, vsc_error *error);
 
 // Reads into blocks whose names and shapes say what is expected. VSC_INPUT when the file is
-// missing, is no checkpoint, has another version or model hash, lacks a block of that shape or is damaged;
-// values of blocks may then have been overwritten.
+// missing, is no checkpoint, has another version or model hash, lacks a block of that shape or is
+// damaged; values of blocks may then have been overwritten.
 vsc_status vsc_checkpoint_read(const char *file, uint64_t model_hash, size_t block_count,
                                const vsc_block *blocks, vsc_error *error);
 
