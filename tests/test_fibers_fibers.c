@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every source of fibres through vsc_fibers_make.
+#include "close.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/mem.h"
+#include "base/vec3.h"
+#include "fibers/fibers.h"
+#include "io/vtk.h"
+#include "tools/shapes.h"
+
+static const double degree = M_PI / 180;
+
+// A block in (0, 0, 0) to (8, 4, 6).
+static vsc_mesh *block(void)
+{
+  vsc_mesh *mesh = NULL;
+  const vsc_block_shape shape = {.cells = {8, 4, 6}, .size = {8, 4, 6}, .tets_per_cell = 5, .jitter = 0.1};
+  assert_int_equal(vsc_block_mesh(&shape, &mesh, NULL), VSC_OK);
+  return mesh;
+}
+
+static vsc_axes *make(const vsc_mesh *mesh, const vsc_fiber_def *definition, vsc_fiber_report *report)
+{
+  vsc_axes *axes = NULL;
+  vsc_error error = {.text = ""};
+  const vsc_status status = vsc_fibers_make(mesh, definition, NULL, 0, &axes, report, &error);
+  if (status != VSC_OK) print_error("%s\n", error.text);
+  assert_int_equal(status, VSC_OK);
+  assert_true(vsc_axes_valid(axes));
+  assert_int_equal(report->elements, mesh->tet_count);
+  assert_int_equal(report->with_data + report->filled + report->passive, mesh->tet_count);
+  return axes;
+}
+
+static void refuse(const vsc_mesh *mesh, const vsc_fiber_def *definition, const char *word)
+{
+  vsc_axes *axes = NULL;
+  vsc_fiber_report report;
+  vsc_error error = {.text = ""};
+  assert_int_equal(vsc_fibers_make(mesh, definition, NULL, 0, &axes, &report, &error), VSC_INPUT);
+  assert_null(axes);
+  if (strstr(error.text, word) == NULL) print_error("no '%s' in: %s\n", word, error.text);
+  assert_non_null(strstr(error.text, word));
+}
+
+static vsc_fiber_def from(vsc_fiber_source source)
+{
+  vsc_fiber_def definition = vsc_default_fiber();
+  definition.source = source;
+  return definition;
+}
+
+static void none_is_passive(void **state)
+{
+  (void)state;
+  vsc_mesh *mesh = block();
+  const vsc_fiber_def definition = from(VSC_FIBER_NONE);
+  vsc_fiber_report report;
+  vsc_axes *axes = make(mesh, &definition, &report);
+  assert_int_equal(report.passive, mesh->tet_count);
+  assert_int_equal(axes->known[3], 0);
+  vsc_axes_free(axes);
+  vsc_mesh_free(mesh);
+}
+
+static void one_direction(void **state)
+{
+  (void)state;
+  vsc_mesh *mesh = block();
+  vsc_fiber_def definition = from(VSC_FIBER_CONSTANT);
+  refuse(mesh, &definition, "(0, 0, 0)");
+  definition.direction[0] = NAN;
+  refuse(mesh, &definition, "nan");
+  const double direction[3] = {0, 3, 4}, sheet[3] = {5, 1, 0};
+  memcpy(definition.direction, direction, sizeof direction);
+  memcpy(definition.sheet_direction, sheet, sizeof sheet);
+  vsc_fiber_report report;
+  vsc_axes *axes = make(mesh, &definition, &report);
+  const double expected[3] = {0, 0.6, 0.8};
+  double s[3] = {5, 1 - 0.36, -0.48};
+  vsc_normalize(s);
+  for (size_t e = 0; e < mesh->tet_count; e++)
+    for (int a = 0; a < 3; a++) {
+      assert_close(axes->frames[9 * e + (size_t)a], expected[a], 0, 1e-12);
+      assert_close(axes->frames[9 * e + 3 + (size_t)a], s[a], 0, 1e-12);
+    }
+  assert_int_equal(report.with_data, mesh->tet_count);
+  assert_close(report.azimuth[0], 90, 0, 1e-9);
+  assert_close(report.elevation[2], asin(0.8) / degree, 0, 1e-9);
+  vsc_axes_free(axes);
+  vsc_mesh_free(mesh);
+}
+
+// Horizontal, diagonal, half circles round (4, ., 0), helices round (4, 2, .).
+static void figure_six(void **state)
+{
+  (void)state;
+  vsc_mesh *mesh = block();
+  vsc_fiber_report report;
+  for (int source = VSC_FIBER_HORIZONTAL; source <= VSC_FIBER_HELICOIDAL; source++) {
+    vsc_fiber_def definition = from((vsc_fiber_source)source);
+    definition.pitch = 35 * degree;
+    vsc_axes *axes = make(mesh, &definition, &report);
+    assert_int_equal(report.with_data, mesh->tet_count);
+    for (size_t e = 0; e < mesh->tet_count; e++) {
+      double at[3];
+      const double *f = &axes->frames[9 * e];
+      vsc_mesh_tet_centre(mesh, e, at);
+      const double x = at[0] - 4, y = at[1] - 2, z = at[2], r = hypot(x, y), turn = cos(35 * degree);
+      const double expected[4][3] = {{1, 0, 0},
+                                     {sqrt(0.5), 0, sqrt(0.5)},
+                                     {z / hypot(x, z), 0, -x / hypot(x, z)},
+                                     {-turn * y / r, turn * x / r, sin(35 * degree)}};
+      for (int a = 0; a < 3; a++)
+        assert_close(f[a], expected[source - VSC_FIBER_HORIZONTAL][a], 0, 1e-12);
+      if (source == VSC_FIBER_HELICOIDAL) assert_close(vsc_dot(f + 3, (double[3]){x, y, 0}), r, 1e-12, 0);
+    }
+    vsc_axes_free(axes);
+  }
+  vsc_mesh_free(mesh);
+}
+
+static void random_fibers_fill_the_sphere(void **state)
+{
+  (void)state;
+  vsc_mesh *mesh = block();
+  vsc_fiber_def definition = from(VSC_FIBER_RANDOM);
+  vsc_fiber_report report;
+  vsc_axes *axes = make(mesh, &definition, &report), *again = make(mesh, &definition, &report);
+  definition.seed = 2;
+  vsc_axes *other = make(mesh, &definition, &report);
+  const size_t bytes = 9 * mesh->tet_count * sizeof(double);
+  assert_memory_equal(axes->frames, again->frames, bytes);
+  assert_memory_not_equal(axes->frames, other->frames, bytes);
+  double mean[3] = {0}, square[3] = {0}, fourth = 0;
+  const double n = (double)mesh->tet_count;
+  for (size_t e = 0; e < mesh->tet_count; e++) {
+    for (int a = 0; a < 3; a++) mean[a] += axes->frames[9 * e + (size_t)a] / n;
+    for (int a = 0; a < 3; a++) square[a] += pow(axes->frames[9 * e + (size_t)a], 2) / n;
+    fourth += pow(axes->frames[9 * e + 2], 4) / n;
+  }
+  for (int a = 0; a < 3; a++) {
+    assert_close(mean[a], 0, 0, 4 / sqrt(3 * n));
+    assert_close(square[a], 1.0 / 3, 0, 4 * 0.3 / sqrt(n));
+  }
+  assert_close(fourth, 0.2, 0, 4 * 0.27 / sqrt(n));
+  vsc_axes_free(axes);
+  vsc_axes_free(again);
+  vsc_axes_free(other);
+  vsc_mesh_free(mesh);
+}
+
+static double *add_vectors(vsc_mesh *mesh, const char *name, double x, double y, double z)
+{
+  double *v = vsc_arrays_add(&mesh->tet_data, name, 3, mesh->tet_count)->values;
+  const double vector[3] = {x, y, z};
+  for (size_t i = 0; i < 3 * mesh->tet_count; i++) v[i] = vector[i % 3];
+  return v;
+}
+
+static void arrays_of_the_mesh(void **state)
+{
+  (void)state;
+  vsc_mesh *mesh = block();
+  vsc_fiber_def definition = from(VSC_FIBER_ARRAYS);
+  refuse(mesh, &definition, "no array 'fiber'");
+  double *fibers = add_vectors(mesh, "fiber", 0, 0, -2);
+  vsc_fiber_report report;
+  vsc_axes *axes = make(mesh, &definition, &report);
+  assert_true(report.constant);
+  assert_close(axes->frames[2], -1, 0, 1e-12);
+  vsc_axes_free(axes);
+  vsc_copy_name(definition.sheet_array, "blatt");
+  refuse(mesh, &definition, "'blatt'");
+  vsc_copy_name(definition.sheet_array, "region");
+  refuse(mesh, &definition, "expected a vector");
+  vsc_copy_name(definition.sheet_array, "sheet");
+  double *sheets = add_vectors(mesh, "sheet", 0, 3, 0);
+  fibers[0] = 1;                 // 10 others stay: not constant
+  fibers[3 + 2] = 0;             // no fibre
+  fibers[6] = NAN;               // no fibre
+  sheets[9 + 2] = 3;             // at 45 degrees
+  sheets[12 + 1] = 0;            // no sheet
+  sheets[15] = INFINITY;         // no sheet
+  sheets[18 + 1] = 0, sheets[18 + 2] = 1;  // along the fibre
+  axes = make(mesh, &definition, &report);
+  assert_false(report.constant);
+  assert_int_equal(report.invalid, 2);
+  assert_int_equal(report.passive, 2);
+  assert_int_equal(report.invalid_sheets, 3);
+  assert_close(report.worst_sheet_angle, 90, 0, 1e-6);
+  assert_close(axes->frames[9 * 3 + 4], 1, 0, 1e-12);
+  assert_int_equal(axes->known[1] + axes->known[2], 0);
+  vsc_axes_free(axes);
+  definition.fill = true;
+  axes = make(mesh, &definition, &report);
+  assert_int_equal(report.filled, 2);
+  assert_int_equal(report.passive, 0);
+  assert_int_equal(axes->known[1] + axes->known[2], 2);
+  vsc_axes_free(axes);
+  vsc_mesh_free(mesh);
+}
+
+static void map_from_a_file(void **state)
+{
+  (void)state;
+  vsc_mesh *mesh = block();
+  const size_t size[3] = {5, 5, 5};
+  vsc_image *image = vsc_image_create(size);
+  for (int a = 0; a < 3; a++) image->spacing[a] = 0.25;  // cm
+  for (int a = 0; a < 2; a++) {
+    vsc_array *array = vsc_arrays_add(&image->data, a == 0 ? "azimuth" : "elevation", 1, 125);
+    for (size_t v = 0; v < 125; v++) array->values[v] = a == 0 ? 30 : 45;
+  }
+  vsc_fiber_def definition = from(VSC_FIBER_MAP);
+  snprintf(definition.map.file, VSC_PATH, "/tmp/viscera_test_%ld.vti", (long)getpid());
+  refuse(mesh, &definition, definition.map.file);
+  assert_int_equal(vsc_vtk_write_image(definition.map.file, image, NULL), VSC_OK);
+  definition.map.length_unit = 10;
+  vsc_fiber_report report;
+  vsc_axes *axes = make(mesh, &definition, &report);
+  assert_int_equal(report.with_data, mesh->tet_count);
+  for (size_t e = 0; e < mesh->tet_count; e++) {
+    const double f[3] = {cos(30 * degree) * sqrt(0.5), sin(30 * degree) * sqrt(0.5), sqrt(0.5)};
+    assert_close(fabs(vsc_dot(f, &axes->frames[9 * e])), 1, 0, 1e-6);
+  }
+  definition.map.length_unit = 1000;
+  snprintf(definition.map.azimuth, VSC_NAME, "azimut");
+  refuse(mesh, &definition, definition.map.file);
+  unlink(definition.map.file);
+  vsc_axes_free(axes);
+  vsc_image_free(image);
+  vsc_mesh_free(mesh);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(none_is_passive),
+      cmocka_unit_test(one_direction),
+      cmocka_unit_test(figure_six),
+      cmocka_unit_test(random_fibers_fill_the_sphere),
+      cmocka_unit_test(arrays_of_the_mesh),
+      cmocka_unit_test(map_from_a_file),
+  };
+  return cmocka_run_group_tests_name("fibers/fibers", tests, NULL, NULL);
+}
