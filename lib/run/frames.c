@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <string.h>
+
+#include "base/mem.h"
+#include "io/vtk.h"
+#include "run/session.h"
+
+// What a frame can hold: names are those of the scene's output.arrays.
+static const struct {
+  const char *name;
+  vsc_field field;
+  bool by_default;
+} known_fields[] = {
+    {"displacement", VSC_FIELD_DISPLACEMENT, true},
+    {"velocity", VSC_FIELD_VELOCITY, true},
+    {"fiber", VSC_FIELD_FIBER, true},
+    {"sheet", VSC_FIELD_SHEET, false},
+    {"normal", VSC_FIELD_NORMAL, false},
+    {"active_tension", VSC_FIELD_ACTIVE_TENSION, true},
+    {"stretch_f", VSC_FIELD_STRETCH, true},
+    {"volume_ratio", VSC_FIELD_VOLUME_RATIO, true},
+    {"volume_ratio", VSC_FIELD_GROUP_RATIO, true},  // on the nodes, beside the elements' own
+};
+enum { FIELDS = sizeof known_fields / sizeof known_fields[0] };
+
+static bool is_wanted(const vsc_output_def *output, const char *name, bool by_default, bool first_frame)
+{
+  // the first frame shows the axes that were used
+  if (first_frame && (strcmp(name, "fiber") == 0 || strcmp(name, "sheet") == 0 || strcmp(name, "normal") == 0))
+    return true;
+  if (output->array_count == 0) return by_default;
+  for (size_t k = 0; k < output->array_count; k++)
+    if (strcmp(output->arrays[k], name) == 0) return true;
+  return false;
+}
+
+static double *region_values(const vsc_problem *problem)
+{
+  const vsc_array *array =
+      vsc_arrays_find(&problem->mesh->tet_data, problem->scene->definition.region_array);
+  return array != NULL && array->components == 1 ? array->values : NULL;
+}
+
+// Reads the wanted fields into `arrays`; their values are owned by the caller. Returns their number, or -1
+// when memory is short.
+static int read_fields(vsc_session *session, bool first_frame, vsc_vtk_array *arrays)
+{
+  const vsc_model *model = session->problem->model;
+  int count = 0;
+  for (int k = 0; k < FIELDS; k++) {
+    const vsc_field field = known_fields[k].field;
+    if (!is_wanted(&session->problem->scene->output, known_fields[k].name, known_fields[k].by_default,
+                   first_frame))
+      continue;
+    if (field == VSC_FIELD_GROUP_RATIO && !model->terms.nodal_volume) continue;
+    if (field == VSC_FIELD_ACTIVE_TENSION && model->terms.active == VSC_ACTIVE_NONE) continue;
+    const bool on_nodes = vsc_field_on_nodes(field);
+    const int components = vsc_field_components(field);
+    double *values;
+    if (!VSC_NEW(values, components * (on_nodes ? model->node_count : model->tet_count))) return -1;
+    vsc_read_field(model, session->state, field, values);
+    arrays[count++] = (vsc_vtk_array){known_fields[k].name, components, values, on_nodes, false};
+  }
+  return count;
+}
+
+static vsc_status write_frame(vsc_session *session, const char *file, bool first_frame, vsc_error *error)
+{
+  const vsc_mesh *mesh = session->problem->mesh;
+  const vsc_output_def *output = &session->problem->scene->output;
+  vsc_vtk_array arrays[FIELDS + 1] = {0};
+  const int fields = read_fields(session, first_frame, arrays);
+  int count = fields;
+  double *regions = region_values(session->problem);
+  if (count >= 0 && regions != NULL && is_wanted(output, "region", true, first_frame))
+    arrays[count++] = (vsc_vtk_array){"region", 1, regions, false, true};
+  vsc_status status;
+  if (count < 0)
+    status = vsc_fail_memory(error, "a frame");
+  else
+    status = vsc_vtk_write_mesh(file, mesh->node_count, mesh->nodes, mesh->tet_count, mesh->tets, 0, NULL,
+                                (size_t)count, arrays, output->double_precision, error);
+  for (int k = 0; k < (fields < 0 ? FIELDS : fields); k++) vsc_free((void *)arrays[k].values);
+  return status;
+}
+
+vsc_status vsc_session_write_frame(vsc_session *session, vsc_error *error)
+{
+  char path[VSC_PATH], frame[VSC_NAME + 64];
+  const size_t number = vsc_pvd_count(session->pvd);
+  snprintf(frame, sizeof frame, "frames/%s_%05zu.vtu", session->name, number);
+  vsc_session_path(session, frame, path);
+  const vsc_status status = write_frame(session, path, number == 0, error);
+  if (status != VSC_OK) return status;
+  return vsc_pvd_add(session->pvd, 1e-3 * session->state->time, frame, error);
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A scene with everything it names, loaded and built.
+#ifndef VSC_RUN_PROBLEM_H
+#define VSC_RUN_PROBLEM_H
+
+#include "fibers/fibers.h"
+#include "io/scene.h"
+#include "model/model.h"
+
+typedef struct vsc_problem {
+  vsc_scene *scene;
+  vsc_mesh *mesh;
+  vsc_axes *axes;
+  vsc_fiber_report fibers;  // where the axes came from
+  vsc_model *model;
+  double load_seconds;      // wall clock of reading and building
+} vsc_problem;
+
+// Reads the scene `file` with the `settings` (key=value, setting_count of them), its mesh and fibres, and builds
+// the model. Every check that needs no time step is done. The caller owns *problem.
+vsc_status vsc_problem_load(const char *file, const char *const *settings, size_t setting_count,
+                            vsc_problem **problem, vsc_error *error);
+
+void vsc_problem_free(vsc_problem *problem);  // NULL is fine
+
+// Seconds of the wall clock and of all threads' processor time, from an arbitrary start.
+double vsc_wall_seconds(void);
+double vsc_cpu_seconds(void);
+
+#endif

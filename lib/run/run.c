@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run/run.h"
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/mem.h"
+#include "run/session.h"
+#include "solve/explicit.h"
+
+void vsc_session_path(const vsc_session *session, const char *what, char path[VSC_PATH])
+{
+  const char *name = what[0] == '.' ? session->name : "";
+  snprintf(path, VSC_PATH, "%.380s/%.64s%.64s", session->options->directory, name, what);
+}
+
+static void name_of_scene(const char *file, char name[VSC_NAME])
+{
+  const char *slash = strrchr(file, '/');
+  vsc_copy_name(name, slash ? slash + 1 : file);
+  char *dot = strrchr(name, '.');
+  if (dot != NULL && dot != name) *dot = '\0';
+}
+
+static vsc_status make_directory(const char *path, vsc_error *error)
+{
+  if (mkdir(path, 0777) == 0 || errno == EEXIST) return VSC_OK;
+  return vsc_fail(error, VSC_SYSTEM, "%s: the folder cannot be made: %s; choose another with -o", path,
+                  strerror(errno));
+}
+
+// A new run takes the frames of an older one away, so that none is left that no series lists.
+static void remove_old_frames(const vsc_session *session, const char *series)
+{
+  vsc_pvd *old;
+  if (vsc_pvd_open(series, HUGE_VAL, &old, NULL) != VSC_OK) return;
+  for (size_t k = 0; k < vsc_pvd_count(old); k++) {
+    char path[VSC_PATH];
+    const char *frame = vsc_pvd_frame(old, k);
+    if (strncmp(frame, "frames/", 7) != 0 || strstr(frame, "..") != NULL) continue;
+    vsc_session_path(session, frame, path);
+    unlink(path);
+  }
+  vsc_pvd_free(old);
+}
+
+static vsc_status open_files(vsc_session *session, vsc_error *error)
+{
+  char path[VSC_PATH], series[VSC_PATH];
+  const bool resume = session->options->resume;
+  vsc_status status = make_directory(session->options->directory, error);
+  vsc_session_path(session, "frames", path);
+  if (status == VSC_OK) status = make_directory(path, error);
+  vsc_session_path(session, ".pvd", series);
+  if (status == VSC_OK && !resume) remove_old_frames(session, series);
+  vsc_session_path(session, "scene.yaml", path);
+  if (status == VSC_OK) status = vsc_scene_write(session->problem->scene, path, error);
+  // a frame at the checkpoint's own time stays
+  const double keep = resume ? 1e-3 * session->state->time + 1e-6 : -1;
+  if (status == VSC_OK) status = vsc_pvd_open(series, keep, &session->pvd, error);
+  return status;
+}
+
+static vsc_status open_watch(vsc_session *session, double keep_until, vsc_error *error)
+{
+  char path[VSC_PATH];
+  vsc_session_path(session, "signals.csv", path);
+  return vsc_watch_open(session->problem, path, keep_until, &session->watch, error);
+}
+
+// The time of the checkpoint must be known before the signals are opened, which trims them: so the state is
+// read first with a watch on no file.
+static vsc_status resume(vsc_session *session, vsc_error *error)
+{
+  vsc_status status = vsc_watch_open(session->problem, "/dev/null", -1, &session->watch, error);
+  if (status == VSC_OK) status = vsc_session_load(session, error);
+  if (status == VSC_OK) status = open_files(session, error);
+  if (status != VSC_OK) return status;
+  vsc_watch_free(session->watch);
+  session->watch = NULL;
+  status = open_watch(session, session->state->time, error);
+  if (status == VSC_OK) status = vsc_session_load(session, error);
+  if (status == VSC_OK) vsc_watch_resume(session->problem, session->state, session->watch);
+  return status;
+}
+
+// Remembers the state as good, or goes back to it.
+static void keep_good(vsc_session *session)
+{
+  const size_t count = 4 * session->problem->model->node_count;
+  const vsc_state *state = session->state;
+  session->good[0] = state->time;
+  session->good[1] = state->steps;
+  memcpy(session->good + 2, state->x, count * sizeof(double));
+  memcpy(session->good + 2 + count, state->v, count * sizeof(double));
+  memcpy(session->good + 2 + 2 * count, state->a, count * sizeof(double));
+}
+
+static void go_back_to_good(vsc_session *session)
+{
+  const size_t count = 4 * session->problem->model->node_count;
+  vsc_state *state = session->state;
+  state->time = session->good[0];
+  state->steps = session->good[1];
+  memcpy(state->x, session->good + 2, count * sizeof(double));
+  memcpy(state->v, session->good + 2 + count, count * sizeof(double));
+  memcpy(state->a, session->good + 2 + 2 * count, count * sizeof(double));
+}
+
+static vsc_status write_row(vsc_session *session, vsc_error *error)
+{
+  const vsc_status status = vsc_watch_row(session->problem, session->state, session->watch, error);
+  session->most_inverted = fmax(session->most_inverted, session->watch->totals.inverted);
+  if (status == VSC_OK) keep_good(session);
+  return status;
+}
+
+static vsc_status start(vsc_session *session, vsc_error *error)
+{
+  vsc_problem *problem = session->problem;
+  vsc_status status = vsc_state_create(problem->model, &session->state, error);
+  if (status == VSC_OK && !VSC_NEW(session->good, 2 + 12 * problem->model->node_count))
+    status = vsc_fail_memory(error, "the last good state");
+  if (status != VSC_OK) return status;
+  if (session->options->resume) {
+    status = resume(session, error);
+    if (status == VSC_OK) keep_good(session);
+    return status;
+  }
+  status = vsc_start(problem->model, session->state, error);
+  if (status == VSC_OK) status = open_files(session, error);
+  if (status == VSC_OK) status = open_watch(session, -1, error);
+  if (status == VSC_OK) status = write_row(session, error);
+  if (status == VSC_OK) status = vsc_session_write_frame(session, error);
+  return status;
+}
+
+// The next multiple of `interval` after `time`, or `end` if that comes first or the interval is 0.
+static double next_event(double time, double interval, double end)
+{
+  if (!(interval > 0)) return end;
+  const double next = interval * (floor(time / interval + 1e-6) + 1);
+  return next < end * (1 - 1e-12) ? next : end;
+}
+
+static bool is_event(double time, double interval, double end)
+{
+  if (time >= end) return true;
+  return interval > 0 && fabs(time - interval * round(time / interval)) < 1e-6 * interval;
+}
+
+static vsc_status advance(vsc_session *session, double stop, vsc_error *error)
+{
+  const vsc_output_def *output = &session->problem->scene->output;
+  const vsc_model *model = session->problem->model;
+  vsc_state *state = session->state;
+  vsc_status status = VSC_OK;
+  while (state->time < stop && status == VSC_OK) {
+    double next = next_event(state->time, output->signal_interval, stop);
+    next = fmin(next, next_event(state->time, output->frame_interval, stop));
+    next = fmin(next, next_event(state->time, output->checkpoint_interval, stop));
+    status = vsc_advance(model, state, next, error);
+    if (status == VSC_OK && is_event(next, output->signal_interval, model->end_time))
+      status = write_row(session, error);
+    if (status == VSC_OK && is_event(next, output->frame_interval, model->end_time))
+      status = vsc_session_write_frame(session, error);
+    if (status == VSC_OK && output->checkpoint_interval > 0 &&
+        is_event(next, output->checkpoint_interval, stop))
+      status = vsc_session_save(session, error);
+    if (status == VSC_OK && session->options->progress != NULL)
+      session->options->progress(session->options->progress_context, state->time, model->end_time,
+                                 vsc_wall_seconds() - session->start_wall);
+  }
+  return status;
+}
+
+static void fill_result(const vsc_session *session, vsc_run_result *result)
+{
+  result->steps = session->state->steps - session->start_steps;
+  result->simulated = session->state->time - session->start_time;
+  result->wall_seconds = vsc_wall_seconds() - session->start_wall;
+  result->cpu_seconds = vsc_cpu_seconds() - session->start_cpu;
+  if (result->cpu_seconds > 0)
+    result->updates_per_second =
+        result->steps * (double)session->problem->model->tet_count / result->cpu_seconds;
+  result->frames = session->pvd ? vsc_pvd_count(session->pvd) : 0;
+  vsc_session_path(session, ".pvd", result->series);
+}
+
+// Leaves the last good state and the reason; what fails now on top of that is not told.
+static void save_failure(vsc_session *session, vsc_run_result *result, const vsc_error *error)
+{
+  if (session->pvd == NULL || session->watch == NULL || session->watch->rows == 0) return;
+  go_back_to_good(session);
+  const size_t frames = vsc_pvd_count(session->pvd);
+  if (frames == 0 || fabs(vsc_pvd_time(session->pvd, frames - 1) - 1e-3 * session->state->time) > 1e-9)
+    vsc_session_write_frame(session, NULL);
+  vsc_session_save(session, NULL);
+  fill_result(session, result);
+  vsc_session_summarize(session, result, error ? error->text : "failed", NULL);
+}
+
+static void close_session(vsc_session *session)
+{
+  vsc_watch_free(session->watch);
+  vsc_pvd_free(session->pvd);
+  vsc_state_free(session->state);
+  vsc_free(session->good);
+}
+
+vsc_status vsc_run(vsc_problem *problem, const vsc_run_options *options, vsc_run_result *result,
+                   vsc_error *error)
+{
+  vsc_session session = {.problem = problem, .options = options};
+  session.start_wall = vsc_wall_seconds();
+  session.start_cpu = vsc_cpu_seconds();
+  *result = (vsc_run_result){0};
+  name_of_scene(problem->scene->file, session.name);
+  vsc_status status = start(&session, error);
+  if (status == VSC_OK) {
+    session.start_steps = session.options->resume ? session.state->steps : 0;
+    session.start_time = session.options->resume ? session.state->time : 0;
+    const double end = problem->model->end_time;
+    const double stop = options->stop_time > 0 ? fmin(options->stop_time, end) : end;
+    status = advance(&session, stop, error);
+  }
+  if (status == VSC_OK) status = vsc_session_save(&session, error);
+  if (status == VSC_OK) {
+    fill_result(&session, result);
+    status = vsc_session_summarize(&session, result, NULL, error);
+  } else if (session.state != NULL) {
+    save_failure(&session, result, error);
+  }
+  close_session(&session);
+  return status;
+}

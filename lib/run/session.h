@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A run under way, and the files it writes. Internal to the run room.
+#ifndef VSC_RUN_SESSION_H
+#define VSC_RUN_SESSION_H
+
+#include "io/pvd.h"
+#include "run/run.h"
+#include "run/watch.h"
+
+typedef struct vsc_session {
+  vsc_problem *problem;
+  const vsc_run_options *options;
+  char name[VSC_NAME];      // the scene file's name without folder and ending
+  vsc_state *state;
+  vsc_watch *watch;
+  vsc_pvd *pvd;
+  double *good;             // the last good state: time, steps, then x, v, a; owned
+  double start_wall, start_cpu, start_steps, start_time;
+  double most_inverted;     // largest number of tets with J <= 0 at any row
+} vsc_session;
+
+// DIRECTORY/what, or DIRECTORY/NAME.what when `what` begins with a dot.
+void vsc_session_path(const vsc_session *session, const char *what, char path[VSC_PATH]);
+
+// Writes the current state as a VTU frame and adds it to the PVD.
+vsc_status vsc_session_write_frame(vsc_session *session, vsc_error *error);
+
+// Writes or reads DIRECTORY/checkpoint.h5.
+vsc_status vsc_session_save(vsc_session *session, vsc_error *error);
+vsc_status vsc_session_load(vsc_session *session, vsc_error *error);
+
+// Writes DIRECTORY/summary.json; `failure` is NULL for a run that has reached its end.
+vsc_status vsc_session_summarize(const vsc_session *session, const vsc_run_result *result,
+                                 const char *failure, vsc_error *error);
+
+#endif

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run/watch.h"
+
+#include <errno.h>
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+
+#define MJ 1e-3  // mJ per uJ
+#define ML 1e-3  // ml per mm^3
+
+// Writes one column of the row being made; at the first row also its name.
+static void put(vsc_watch *watch, const char *unit, double value, const char *name, const char *suffix)
+{
+  if (watch->signal_count == VSC_SIGNALS) return;
+  const size_t k = watch->signal_count++;
+  snprintf(watch->names[k], VSC_SIGNAL_NAME, "%s%s [%s]", name, suffix, unit);
+  watch->values[k] = value;
+}
+
+static void put_energies(vsc_watch *watch)
+{
+  const vsc_totals *t = &watch->totals;
+  const vsc_ledger *ledger = watch->ledger;
+  put(watch, "mJ", MJ * t->kinetic, "energy_kinetic", "");
+  put(watch, "mJ", MJ * t->axial, "energy_axial", "");
+  put(watch, "mJ", MJ * t->angular, "energy_angular", "");
+  put(watch, "mJ", MJ * t->volume_energy, "energy_volume", "");
+  put(watch, "mJ", MJ * t->gravity_energy, "energy_gravity", "");
+  put(watch, "mJ", MJ * ledger->active, "work_active", "");
+  put(watch, "mJ", MJ * ledger->pressure, "work_pressure", "");
+  put(watch, "mJ", MJ * ledger->dissipated, "dissipated", "");
+  put(watch, "mJ", MJ * vsc_balance_error(ledger, t), "balance_error", "");
+}
+
+static void make_row(const vsc_problem *problem, vsc_state *state, vsc_watch *watch)
+{
+  static const char *const axis[3] = {"x", "y", "z"};
+  const vsc_model *model = problem->model;
+  const vsc_totals *t = &watch->totals;
+  watch->signal_count = 0;
+  put(watch, "s", 1e-3 * state->time, "time", "");
+  put(watch, "ms", model->step > 0 ? model->step : state->limit.step, "step", "");
+  for (size_t c = 0; c < watch->cavity_count; c++)
+    put(watch, "ml", ML * vsc_cavity_volume(&watch->cavities[c], state->x, 4), "cavity_",
+        problem->scene->output.cavities[c]);
+  put(watch, "ml", ML * t->volume, "wall_volume", "");
+  for (size_t p = 0; p < model->pressure_count; p++)
+    put(watch, "kPa", vsc_model_pressure(model, p, state->time), "pressure_", model->pressures[p].surface);
+  put(watch, "kPa", t->tension_mean, "active_tension_mean", "");
+  put(watch, "kPa", t->tension_high, "active_tension_max", "");
+  put(watch, "1", t->stretch_low, "stretch_f_min", "");
+  put(watch, "1", t->stretch_mean, "stretch_f_mean", "");
+  put(watch, "1", t->stretch_high, "stretch_f_max", "");
+  put(watch, "1", t->J_low, "J_min", "");
+  put(watch, "1", t->J_high, "J_max", "");
+  if (model->terms.nodal_volume) {
+    put(watch, "1", t->group_low, "J_node_min", "");
+    put(watch, "1", t->group_high, "J_node_max", "");
+  }
+  put(watch, "1", t->inverted, "inverted_elements", "");
+  put_energies(watch);
+  for (int i = 0; i < 3; i++) put(watch, "mg m/s", t->momentum[i], "momentum_", axis[i]);
+  for (int i = 0; i < 3; i++)
+    put(watch, "mg mm m/s", t->angular_momentum[i], "angular_momentum_", axis[i]);
+}
+
+static vsc_status make_cavities(const vsc_problem *problem, vsc_watch *watch, vsc_error *error)
+{
+  const vsc_model *model = problem->model;
+  const vsc_output_def *output = &problem->scene->output;
+  uint32_t *number;
+  if (!VSC_NEW(watch->cavities, output->cavity_count) || !VSC_NEW(number, model->node_count))
+    return vsc_fail_memory(error, "cavities");
+  for (size_t n = 0; n < model->node_count; n++) number[model->mesh_node[n]] = (uint32_t)n;
+  vsc_status status = VSC_OK;
+  for (size_t c = 0; c < output->cavity_count && status == VSC_OK; c++) {
+    const int s = vsc_model_find_surface(model, output->cavities[c]);
+    if (s < 0) {
+      status = vsc_fail(error, VSC_INPUT, "output.cavities[%zu]: no surface is called '%s'; define it under surfaces",
+                        c, output->cavities[c]);
+      break;
+    }
+    status = vsc_cavity_make(&model->surfaces[s], model->node_count, &watch->cavities[c], error);
+    if (status != VSC_OK) break;
+    watch->cavity_count++;
+    vsc_cavity *cavity = &watch->cavities[c];
+    for (size_t k = 0; k < 3 * cavity->triangle_count; k++) cavity->triangles[k] = number[cavity->triangles[k]];
+    for (size_t k = 0; k < cavity->rim_start[cavity->rim_count]; k++)
+      cavity->rim_nodes[k] = number[cavity->rim_nodes[k]];
+  }
+  vsc_free(number);
+  return status;
+}
+
+// Copies the header and the rows up to `keep_until` (ms) to a new file that takes the old one's place.
+static vsc_status trim_rows(const char *file, double keep_until, vsc_error *error)
+{
+  char temporary[VSC_PATH + 8], line[16384];
+  snprintf(temporary, sizeof temporary, "%s.tmp", file);
+  FILE *from = fopen(file, "r");
+  if (from == NULL) return VSC_OK;
+  FILE *to = fopen(temporary, "w");
+  if (to == NULL) {
+    fclose(from);
+    return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", temporary, strerror(errno));
+  }
+  for (size_t row = 0; fgets(line, sizeof line, from) != NULL; row++)
+    if (row == 0 || 1e3 * strtod(line, NULL) <= keep_until + 1e-6) fputs(line, to);
+  fclose(from);
+  if (fclose(to) != 0 || rename(temporary, file) != 0)
+    return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", file, strerror(errno));
+  return VSC_OK;
+}
+
+static vsc_status open_file(const char *file, double keep_until, vsc_watch *watch, vsc_error *error)
+{
+  const vsc_status status = keep_until >= 0 ? trim_rows(file, keep_until, error) : VSC_OK;
+  if (status != VSC_OK) return status;
+  watch->file = fopen(file, keep_until >= 0 ? "a" : "w");
+  if (watch->file == NULL)
+    return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", file, strerror(errno));
+  return VSC_OK;
+}
+
+vsc_status vsc_watch_open(const vsc_problem *problem, const char *file, double keep_until, vsc_watch **watch,
+                          vsc_error *error)
+{
+  vsc_watch *made;
+  *watch = NULL;
+  if (!VSC_NEW(made, 1)) return vsc_fail_memory(error, "signals");
+  vsc_status status = vsc_ledger_create(problem->model, &made->ledger, error);
+  if (status == VSC_OK) status = make_cavities(problem, made, error);
+  if (status == VSC_OK) status = open_file(file, keep_until, made, error);
+  if (status != VSC_OK) {
+    vsc_watch_free(made);
+    return status;
+  }
+  *watch = made;
+  return VSC_OK;
+}
+
+static vsc_status check_balance(const vsc_state *state, vsc_watch *watch, vsc_error *error)
+{
+  const vsc_totals *t = &watch->totals;
+  const vsc_ledger *ledger = watch->ledger;
+  const double error_now = vsc_balance_error(ledger, t), jump = fabs(error_now - watch->balance);
+  const double stored = t->kinetic + t->axial + t->angular + t->volume_energy;
+  watch->balance = error_now;
+  const double before = watch->energy_scale;
+  watch->energy_scale = fmax(fmax(before, stored), fmax(fabs(ledger->active), fabs(ledger->pressure)));
+  if (isfinite(error_now) && (watch->rows == 0 || jump <= 0.05 * watch->energy_scale)) return VSC_OK;
+  return vsc_fail(error, VSC_NUMERICAL,
+                  "at %.6g ms the energy balance jumped by %.3g mJ, %.0f %% of the largest energy so far: the "
+                  "simulation is coming apart; take a smaller time.safety, a shorter output.signals interval, more "
+                  "damping, or a smaller load",
+                  state->time, MJ * jump, 100 * jump / watch->energy_scale);
+}
+
+static vsc_status write_row(vsc_watch *watch, vsc_error *error)
+{
+  const long place = ftell(watch->file);
+  if (place == 0)
+    for (size_t k = 0; k < watch->signal_count; k++)
+      fprintf(watch->file, "%s%s", k ? "," : "", watch->names[k]);
+  if (place == 0) fputc('\n', watch->file);
+  for (size_t k = 0; k < watch->signal_count; k++)
+    fprintf(watch->file, k ? ",%.12g" : "%.12g", watch->values[k]);
+  fputc('\n', watch->file);
+  if (fflush(watch->file) != 0)
+    return vsc_fail(error, VSC_SYSTEM, "signals.csv: cannot be written: %s", strerror(errno));
+  return VSC_OK;
+}
+
+vsc_status vsc_watch_row(const vsc_problem *problem, vsc_state *state, vsc_watch *watch, vsc_error *error)
+{
+  vsc_observe(problem->model, state, watch->ledger, false, &watch->totals);
+  make_row(problem, state, watch);
+  for (size_t k = 0; k < watch->signal_count; k++) {
+    watch->low[k] = watch->rows > 0 ? fmin(watch->low[k], watch->values[k]) : watch->values[k];
+    watch->high[k] = watch->rows > 0 ? fmax(watch->high[k], watch->values[k]) : watch->values[k];
+  }
+  const vsc_status status = write_row(watch, error);
+  if (status != VSC_OK) return status;
+  const vsc_status balance = check_balance(state, watch, error);
+  watch->rows++;
+  return balance;
+}
+
+void vsc_watch_resume(const vsc_problem *problem, vsc_state *state, vsc_watch *watch)
+{
+  vsc_observe(problem->model, state, watch->ledger, true, &watch->totals);
+  make_row(problem, state, watch);
+}
+
+void vsc_watch_free(vsc_watch *watch)
+{
+  if (watch == NULL) return;
+  if (watch->file != NULL) fclose(watch->file);
+  for (size_t c = 0; c < watch->cavity_count; c++) vsc_cavity_free(&watch->cavities[c]);
+  vsc_free(watch->cavities);
+  vsc_ledger_free(watch->ledger);
+  vsc_free(watch);
+}
+
+int vsc_watch_find(const vsc_watch *watch, const char *name)
+{
+  const size_t length = strlen(name);
+  for (size_t k = 0; k < watch->signal_count; k++)
+    if (strncmp(watch->names[k], name, length) == 0 && watch->names[k][length] == ' ') return (int)k;
+  return -1;
+}

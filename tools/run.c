@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// viscera run
+#include <getopt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "io/units.h"
+#include "run/check.h"
+#include "run/run.h"
+#include "tools/scene_options.h"
+#include "tools/verbs.h"
+
+static const char help[] =
+    "Usage: viscera run [OPTION]... SCENE\n"
+    "Simulates a scene: frames for ParaView (NAME.pvd), signals.csv, summary.json, checkpoint.h5.\n\n"
+    "  -o, --output DIR     results go to DIR (default: the scene's name without its ending)\n"
+    "  -s, --set KEY=VALUE  replace or add a value of the scene\n"
+    "  -t, --threads N      number of threads (default: all processors)\n"
+    "  -r, --resume         go on from the checkpoint in DIR\n"
+    "      --stop TIME      stop at TIME (as '0.4 s') and leave a checkpoint\n"
+    "  -q, --quiet          no progress, no warnings\n"
+    "  -h, --help           this text\n\n"
+    "Exit codes: 0 good, 2 the user's input, 3 numerical failure (the last good state is kept), 4 system.\n\n"
+    "Examples:\n"
+    "  viscera run data/beat.yaml -o beat\n"
+    "  viscera run data/beat.yaml -o half --set 'time.end=0.4 s' --threads 1\n"
+    "  viscera run data/beat.yaml -o beat --resume\n";
+
+typedef struct run_arguments {
+  vsc_scene_options scene;
+  vsc_run_options run;
+  bool quiet;
+} run_arguments;
+
+// One line, overwritten, while stderr is a terminal.
+static void show_progress(void *context, double time, double end, double wall_seconds)
+{
+  (void)context;
+  const double left = time > 0 ? wall_seconds * (end - time) / time : 0;
+  fprintf(stderr, "\r%6.1f of %.1f ms   %.3g simulated s per minute   %.0f s left   ", time, end,
+          60 * 1e-3 * time / (wall_seconds > 0 ? wall_seconds : 1), left);
+  if (time >= end) fputc('\n', stderr);
+  fflush(stderr);
+}
+
+static int keep_stop(const char *text, run_arguments *arguments)
+{
+  vsc_error error;
+  if (vsc_units_read(text, VSC_TIME, &arguments->run.stop_time, &error) == VSC_OK) return 0;
+  fprintf(stderr, "viscera: --stop: %s\n", error.text);
+  return 2;
+}
+
+static int read_arguments(int argc, char **argv, run_arguments *arguments, bool *helped)
+{
+  enum { STOP = 256 };
+  static const struct option options[] = {
+      {"output", required_argument, NULL, 'o'},  {"set", required_argument, NULL, 's'},
+      {"threads", required_argument, NULL, 't'}, {"resume", no_argument, NULL, 'r'},
+      {"stop", required_argument, NULL, STOP},   {"quiet", no_argument, NULL, 'q'},
+      {"help", no_argument, NULL, 'h'},          {0}};
+  for (int c; (c = getopt_long(argc, argv, "o:s:t:rqh", options, NULL)) != -1;) {
+    int code = 0;
+    switch (c) {
+      case 'o': arguments->run.directory = optarg; break;
+      case 's': code = vsc_keep_setting(&arguments->scene, optarg); break;
+      case 't': code = vsc_keep_threads(optarg); break;
+      case 'r': arguments->run.resume = true; break;
+      case STOP: code = keep_stop(optarg, arguments); break;
+      case 'q': arguments->quiet = true; break;
+      case 'h': *helped = true; return fputs(help, stdout) < 0 ? 4 : 0;
+      default: code = 2;
+    }
+    if (code != 0) return code;
+  }
+  if (optind + 1 == argc) {
+    arguments->scene.scene = argv[optind];
+    return 0;
+  }
+  fputs("viscera run: give one scene file; see `viscera run --help`\n", stderr);
+  return 2;
+}
+
+// The scene file's name without folder and ending.
+static void name_directory(const char *scene, char *directory, size_t size)
+{
+  const char *slash = strrchr(scene, '/');
+  snprintf(directory, size, "%s", slash ? slash + 1 : scene);
+  char *dot = strrchr(directory, '.');
+  if (dot != NULL && dot != directory) *dot = '\0';
+}
+
+static void report(const vsc_run_result *result)
+{
+  printf("%s: %.4g ms in %.0f steps, %.3g s (%.3g s of CPU, %.3g million element updates per CPU second), %zu frames\n",
+         result->series, result->simulated, result->steps, result->wall_seconds, result->cpu_seconds,
+         1e-6 * result->updates_per_second, result->frames);
+}
+
+int vsc_verb_run(int argc, char **argv)
+{
+  run_arguments arguments = {0};
+  bool helped = false;
+  char directory[VSC_PATH];
+  int code = read_arguments(argc, argv, &arguments, &helped);
+  if (code != 0 || helped) return code;
+  if (arguments.run.directory == NULL) {
+    name_directory(arguments.scene.scene, directory, sizeof directory);
+    arguments.run.directory = directory;
+  }
+  vsc_problem *problem;
+  code = vsc_load_scene(&arguments.scene, &problem);
+  if (code != 0) return code;
+  if (!arguments.quiet) vsc_check_warnings(problem, stderr, "viscera: warning: ");
+  if (!arguments.quiet && isatty(STDERR_FILENO)) arguments.run.progress = show_progress;
+  vsc_run_result result;
+  vsc_error error;
+  code = (int)vsc_run(problem, &arguments.run, &result, &error);
+  if (code != 0) fprintf(stderr, "viscera: %s\n", error.text);
+  else report(&result);
+  vsc_problem_free(problem);
+  return code;
+}
