@@ -44,7 +44,8 @@ static const vsc_setting *setting_of(const vsc_reading *reading, const char *key
 
 static vsc_status fail_at(const vsc_reading *reading, const char *key, const char *text)
 {
-  const vsc_setting *setting = setting_of(reading, key);
+  const vsc_setting *setting = reading->current;
+  if (setting == NULL) setting = setting_of(reading, key);
   const char *colon = key[0] != '\0' ? ": " : "";
   if (setting != NULL)
     return vsc_fail(reading->error, VSC_INPUT, "%s: --set %.100s: %s%s%s", reading->file,
@@ -113,8 +114,10 @@ static vsc_status apply_settings(vsc_reading *reading, vsc_slot *slots, const ch
   vsc_status status = VSC_OK;
   for (size_t i = 0; i < count && status == VSC_OK; i++) {
     settings[i].text = texts[i];
-    reading->setting_count = i + 1;
+    reading->current = &settings[i];
     status = vsc_scene_set(reading, slots, &settings[i]);
+    reading->current = NULL;
+    reading->setting_count = i + 1;
   }
   return status;
 }

@@ -77,10 +77,10 @@ static vsc_status fail_missing(vsc_reading *reading, const vsc_group *group, con
 {
   char hint[200];
   if (row->group == NULL)
-    return vsc_reading_fail(reading, "missing; give %s, such as %s: %s", row->meaning, row->key,
-                            vsc_row_text(group, row));
+    return vsc_reading_fail(reading, "missing; write such as \"%s: %s\" (%s)", row->key,
+                            vsc_row_text(group, row), row->meaning);
   vsc_group_hint(row->group, "", hint, sizeof hint);
-  return vsc_reading_fail(reading, "missing; give %s; %s", row->meaning, hint);
+  return vsc_reading_fail(reading, "missing (%s); %s", row->meaning, hint);
 }
 
 vsc_status vsc_group_convert(vsc_reading *reading, const vsc_group *group, const vsc_slot *slots,

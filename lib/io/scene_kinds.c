@@ -3,6 +3,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,22 +23,24 @@ static size_t *count_of(const vsc_row *row, void *field)
 
 // ---- numbers with units
 
-static vsc_status read_text(vsc_reading *reading, vsc_quantity quantity, const char *text,
+static vsc_status read_text(vsc_reading *reading, const vsc_row *row, const char *text,
                             double *value)
 {
   vsc_error found;
-  const vsc_status status = vsc_units_read(text, quantity, value, &found);
+  const vsc_status status = vsc_units_read(text, row->quantity, value, &found);
+  if (status == VSC_OK) return VSC_OK;
   if (status == VSC_SYSTEM) return vsc_fail(reading->error, status, "%s", found.text);
-  return status == VSC_OK ? VSC_OK : vsc_reading_fail(reading, "%s", found.text);
+  return vsc_reading_fail(reading, "%s%s%s", found.text, row->zero_word != NULL ? ", or " : "",
+                          row->zero_word != NULL ? row->zero_word : "");
 }
 
-static vsc_status read_texts(vsc_reading *reading, vsc_quantity quantity, const vsc_slot *slot,
+static vsc_status read_texts(vsc_reading *reading, const vsc_row *row, const vsc_slot *slot,
                              double *values)
 {
   char *const *texts = slot->value;
   for (size_t i = 0; i < slot->count; i++) {
     const size_t length = vsc_enter_item(reading, i);
-    const vsc_status status = read_text(reading, quantity, texts[i], &values[i]);
+    const vsc_status status = read_text(reading, row, texts[i], &values[i]);
     if (status != VSC_OK) return status;
     vsc_leave(reading, length);
   }
@@ -50,7 +53,7 @@ static vsc_status read_quantity(vsc_reading *reading, const vsc_row *row, const 
   double value = 0;
   vsc_status status = VSC_OK;
   if (row->zero_word == NULL || strcmp(slot->value, row->zero_word) != 0)
-    status = read_text(reading, row->quantity, slot->value, &value);
+    status = read_text(reading, row, slot->value, &value);
   if (status == VSC_OK) memcpy(field, &value, sizeof value);
   return status;
 }
@@ -63,7 +66,7 @@ static vsc_status read_unit(vsc_reading *reading, const vsc_row *row, const vsc_
   double value;
   const bool number = text[0] == '\0' || strchr("+-.0123456789", text[0]) != NULL;
   snprintf(with_number, sizeof with_number, "%s%s", number ? "" : "1 ", text);
-  const vsc_status status = read_text(reading, row->quantity, with_number, &value);
+  const vsc_status status = read_text(reading, row, with_number, &value);
   if (status != VSC_OK) return status;
   if (!(value > 0))
     return vsc_reading_fail(reading, "\"%s\": not above zero; expected a unit such as %s", text,
@@ -78,7 +81,7 @@ static vsc_status read_vector(vsc_reading *reading, const vsc_row *row, const vs
   if (slot->count != row->count)
     return vsc_reading_fail(reading, "%zu values; expected %zu, such as %s", (size_t)slot->count,
                             row->count, row->text);
-  return read_texts(reading, row->quantity, slot, field);
+  return read_texts(reading, row, slot, field);
 }
 
 static vsc_status read_both(vsc_reading *reading, const vsc_row *row, const vsc_slot *slot,
@@ -101,7 +104,7 @@ static vsc_status read_series(vsc_reading *reading, const vsc_row *row, const vs
   if (!VSC_NEW(values, slot->count)) return vsc_fail_memory(reading->error, row->key);
   memcpy(field, &values, sizeof values);
   *count = slot->count;
-  return read_texts(reading, row->quantity, slot, values);
+  return read_texts(reading, row, slot, values);
 }
 
 // The shortest text of 15 to 17 digits that reads back to the same bits.
@@ -113,6 +116,18 @@ static void write_number(FILE *stream, double value, const char *unit)
     if (strtod(text, NULL) == value) break;
   }
   fprintf(stream, "%s%s%s", text, unit[0] != '\0' ? " " : "", unit);
+}
+
+// An angle in degrees if they read back to the same bits, else in radians.
+static void write_angle(FILE *stream, double angle)
+{
+  char text[48];
+  double back;
+  snprintf(text, sizeof text, "%.15g deg", angle * (180 / M_PI));
+  if (vsc_units_read(text, VSC_ANGLE, &back, NULL) == VSC_OK && back == angle)
+    fputs(text, stream);
+  else
+    write_number(stream, angle, vsc_units_name(VSC_ANGLE));
 }
 
 static void write_numbers(FILE *stream, const vsc_row *row, const double *values, size_t count)
@@ -129,6 +144,8 @@ static void write_quantity(FILE *stream, const vsc_row *row, const void *field)
   const double value = *(const double *)field;
   if (row->zero_word != NULL && value == 0)
     fputs(row->zero_word, stream);
+  else if (row->quantity == VSC_ANGLE)
+    write_angle(stream, value);
   else
     write_number(stream, value, vsc_units_name(row->quantity));
 }
@@ -231,8 +248,13 @@ static void write_path(FILE *stream, const vsc_row *row, const void *field)
 {
   (void)row;
   char *absolute = realpath(field, NULL);
-  write_text(stream, absolute != NULL ? absolute : field);
+  char *folder = absolute == NULL && *(const char *)field != '/' ? realpath(".", NULL) : NULL;
+  char joined[2 * VSC_PATH];
+  snprintf(joined, sizeof joined, "%.*s%s%s", VSC_PATH, folder != NULL ? folder : "",
+           folder != NULL ? "/" : "", (const char *)field);
+  write_text(stream, absolute != NULL ? absolute : joined);
   free(absolute);
+  free(folder);
 }
 
 static void write_names(FILE *stream, const vsc_row *row, const void *field)

@@ -128,12 +128,13 @@ static cyaml_config_t config_for(complaint *heard)
                           .log_level = CYAML_LOG_WARNING};
 }
 
-// Follows the steps from `row` (NULL: from the whole scene); returns the last row and appends the
-// steps to the reading's key.
-static const vsc_row *follow(vsc_reading *reading, const complaint *heard, const vsc_row *row)
+// Follows the steps, but for the `left` innermost, from `row` (NULL: from the whole scene); returns the
+// last row and appends the steps to the reading's key.
+static const vsc_row *follow(vsc_reading *reading, const complaint *heard, size_t left,
+                             const vsc_row *row)
 {
   const vsc_group *group = row != NULL ? row->group : &vsc_scene_group;
-  for (size_t s = heard->step_count; s-- > 0;) {
+  for (size_t s = heard->step_count; s-- > left;) {
     const char *step = heard->steps[s];
     if (step[0] == '[') {
       vsc_enter_item(reading, strtoul(step + 1, NULL, 10));
@@ -160,9 +161,9 @@ static vsc_status fail_shape(const vsc_reading *reading, const vsc_row *row, boo
   }
   if (row->kind == VSC_ROW_GROUPS)
     return vsc_reading_fail(reading, "%s; expected a list, its items behind dashes", found);
-  return vsc_reading_fail(reading, "%s; expected %s%s", found,
-                          is_list(row) && !item ? "a list such as " : "one value such as ",
-                          row->text);
+  if (item) return vsc_reading_fail(reading, "%s; expected a single value", found);
+  return vsc_reading_fail(reading, "%s; expected %s such as %s", found,
+                          is_list(row) ? "a list" : "one value", row->text);
 }
 
 static vsc_status explain(vsc_reading *reading, const complaint *heard, const vsc_row *start,
@@ -171,8 +172,9 @@ static vsc_status explain(vsc_reading *reading, const complaint *heard, const vs
   static const char unknown[] = "Unexpected key: ", seen[] = "Mapping field already seen: ";
   char hint[400];
   if (code == CYAML_ERR_OOM) return vsc_fail_memory(reading->error, "the scene");
-  const vsc_row *row = follow(reading, heard, start);
   const bool item = heard->step_count > 0 && heard->steps[0][0] == '[';
+  const bool empty = code == CYAML_ERR_SEQUENCE_ENTRIES_MIN;
+  const vsc_row *row = follow(reading, heard, item && empty, start);
   if (strncmp(heard->message, unknown, strlen(unknown)) == 0) {
     const char *key = heard->message + strlen(unknown);
     const vsc_group *group = row != NULL ? row->group : &vsc_scene_group;
@@ -184,7 +186,7 @@ static vsc_status explain(vsc_reading *reading, const complaint *heard, const vs
     return vsc_reading_fail(reading, "given twice, again on line %zu; keep one", heard->line);
   if (strncmp(heard->message, "Expecting ", 10) == 0)
     return fail_shape(reading, row, item, strstr(heard->message, "got event: "));
-  if (code == CYAML_ERR_SEQUENCE_ENTRIES_MIN)
+  if (empty)
     return vsc_reading_fail(reading, "an empty list; expected values such as %s", row->text);
   return vsc_reading_fail(reading, "%s (%s)",
                           heard->message[0] != '\0' ? heard->message : "cannot be read",

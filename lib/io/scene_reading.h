@@ -19,6 +19,7 @@ typedef struct vsc_reading {
   const vsc_locator *locator;     // finds the line of a key
   const vsc_setting *settings;
   size_t setting_count;
+  const vsc_setting *current;     // the setting that is being put in; NULL: the file is being read
   char key[VSC_SCENE_KEY];        // where the reading is
   vsc_error *error;
 } vsc_reading;

@@ -113,8 +113,8 @@ static vsc_status refuse_unit(const char *text, const char *unit, vsc_quantity k
   const char *nearest = vsc_nearest(unit, q->common, count);
   return vsc_fail(error, VSC_INPUT, "\"%s\": %s%s%s%s%s; expected %s such as \"%s\"", text,
                   why == UNKNOWN_UNIT ? "unknown unit " : "not ",
-                  why == UNKNOWN_UNIT ? unit : q->noun, nearest != NULL ? ", did you mean " : "",
-                  nearest != NULL ? nearest : "", nearest != NULL ? "?" : "", q->noun, q->example);
+                  why == UNKNOWN_UNIT ? unit : q->noun, nearest != NULL ? " (did you mean " : "",
+                  nearest != NULL ? nearest : "", nearest != NULL ? "?)" : "", q->noun, q->example);
 }
 
 // The number at the head of `text`; *rest is the trimmed remainder.

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/definition.h"
+
+#include <string.h>
+
+#include "base/mem.h"
+#include "close.h"
+#include "model/fiber_def.h"
+
+// A definition that obeys every rule: two materials, an active one with a table, one surface, one node
+// set, a support and a pressure.
+static vsc_definition make_good(void)
+{
+  vsc_definition d = vsc_default_definition();
+  assert_true(VSC_NEW(d.materials, 2) && VSC_NEW(d.surfaces, 1) && VSC_NEW(d.sets, 2) &&
+              VSC_NEW(d.supports, 1) && VSC_NEW(d.pressures, 1));
+  d.material_count = 2;
+  d.surface_count = d.support_count = d.pressure_count = 1;
+  d.set_count = 2;
+  for (int i = 0; i < 2; i++) {
+    d.materials[i] = vsc_default_material();
+    vsc_copy_name(d.materials[i].name, i == 0 ? "muscle" : "scar");
+    d.materials[i].volume_modulus = 1000;
+    for (int a = 0; a < 3; a++) d.materials[i].axial[a] = d.materials[i].angular[a] = 5;
+  }
+  d.materials[0].region_count = 1;
+  d.materials[0].regions[0] = 3;
+  vsc_active_def *active = &d.materials[0].active;
+  active->kind = VSC_ACTIVE_TENSION;
+  active->tension = 60;
+  active->curve = vsc_default_curve(VSC_CURVE_TABLE);
+  assert_true(VSC_NEW(active->curve.times, 3) && VSC_NEW(active->curve.values, 3));
+  active->curve.point_count = 3;
+  for (int i = 0; i < 3; i++) active->curve.times[i] = 100 * i;
+  d.surfaces[0] = (vsc_selector){.name = "endo", .kind = VSC_SELECT_NODE_ARRAY, .array = "endo",
+                                 .low = 1, .high = 1};
+  d.sets[0] = (vsc_selector){.name = "base", .kind = VSC_SELECT_PLANE, .normal = {0, 0, 1},
+                             .tolerance = 0.1};
+  d.sets[1] = (vsc_selector){.name = "inside", .kind = VSC_SELECT_SURFACE, .array = "endo"};
+  d.supports[0] = (vsc_support_def){.set = "base", .held = {0, 0, 1}};
+  d.pressures[0] = (vsc_pressure_def){.surface = "endo", .peak = 16,
+                                      .curve = vsc_default_curve(VSC_CURVE_HALF_SINE)};
+  d.end_time = 100;
+  return d;
+}
+
+static void defaults_are_as_documented(void **state)
+{
+  (void)state;
+  const vsc_curve_def hill = vsc_default_curve(VSC_CURVE_DOUBLE_HILL);
+  const vsc_curve_def tanh_pair = vsc_default_curve(VSC_CURVE_TANH_PAIR);
+  assert_int_equal(hill.kind, VSC_CURVE_DOUBLE_HILL);
+  assert_true(hill.rise == 100 && hill.fall == 300 && hill.rise_power == 2 &&
+              hill.fall_power == 20 && hill.period == 0 && hill.duration == 300);
+  assert_true(tanh_pair.rise == 20 && tanh_pair.fall == 20 && tanh_pair.start == 0);
+  const vsc_material_def material = vsc_default_material();
+  assert_true(material.density == 1.06 && material.active.rest_stretch == 1 &&
+              material.active.delay_unit == 1 && material.volume_modulus == 0);
+  assert_int_equal(material.active.kind, VSC_ACTIVE_NONE);
+  const vsc_definition definition = vsc_default_definition();
+  assert_true(definition.safety == 0.8 && definition.step == 0 && definition.gravity[2] == 0);
+  assert_int_equal(definition.volume, VSC_VOLUME_NODAL);
+  const vsc_fiber_def fiber = vsc_default_fiber();
+  assert_int_equal(fiber.source, VSC_FIBER_NONE);
+  assert_string_equal(fiber.map.azimuth, "azimuth");
+  assert_string_equal(fiber.map.elevation, "elevation");
+  assert_string_equal(fiber.fiber_array, "fiber");
+  assert_close(fiber.map.scale, M_PI / 180, 1e-15, 0);
+  assert_close(fiber.endo_angle, M_PI / 3, 1e-15, 0);
+  assert_close(fiber.epi_angle, -M_PI / 3, 1e-15, 0);
+  assert_close(fiber.pitch, M_PI / 6, 1e-15, 0);
+  assert_true(fiber.map.image_axes && fiber.map.azimuth_sense == 1 && fiber.seed == 1 &&
+              fiber.map.elevation_sense == 1 && fiber.map.length_unit == 1 &&
+              fiber.long_axis[2] == 1 && !fiber.fill);
+}
+
+static void a_good_definition_passes(void **state)
+{
+  (void)state;
+  vsc_definition d = make_good();
+  vsc_error error = {.text = ""};
+  if (vsc_definition_check(&d, &error) != VSC_OK) fail_msg("%s", error.text);
+  vsc_copy_name(d.pressures[0].surface, "boundary");
+  vsc_copy_name(d.sets[1].array, "boundary");
+  assert_int_equal(vsc_definition_check(&d, &error), VSC_OK);
+  vsc_definition_free(&d);
+  assert_int_equal(d.material_count, 0);
+  vsc_definition_free(&d);
+}
+
+typedef void spoil(vsc_definition *d);
+
+#define SPOIL(name, statement) \
+  static void name(vsc_definition *d) \
+  { \
+    statement; \
+  }
+SPOIL(no_material, d->material_count = 0)
+SPOIL(axial, d->materials[1].axial[2] = -5)
+SPOIL(axial_nan, d->materials[0].axial[0] = NAN)
+SPOIL(angular, d->materials[0].angular[1] = -1e-9)
+SPOIL(damping, d->materials[0].damping[0] = -1)
+SPOIL(density, d->materials[0].density = 0)
+SPOIL(no_volume, d->materials[1].volume_modulus = 0)
+SPOIL(huge_volume, d->materials[1].volume_modulus = INFINITY)
+SPOIL(stabilization, d->materials[0].stabilization = -1)
+SPOIL(tension, d->materials[0].active.tension = -60)
+SPOIL(rest_stretch, d->materials[1].active.kind = VSC_ACTIVE_SPRING;
+      d->materials[1].active.rest_stretch = 0)
+SPOIL(stiffness, d->materials[1].active.kind = VSC_ACTIVE_SPRING;
+      d->materials[1].active.stiffness = -1)
+SPOIL(delay, d->materials[0].active.delay = NAN)
+SPOIL(delay_unit, d->materials[0].active.delay_unit = 0)
+SPOIL(one_point, d->materials[0].active.curve.point_count = 1)
+SPOIL(falling, d->materials[0].active.curve.times[2] = 100)
+SPOIL(table_nan, d->materials[0].active.curve.values[1] = NAN)
+SPOIL(duration, d->pressures[0].curve.duration = 0)
+SPOIL(period, d->pressures[0].curve.period = 200)
+SPOIL(negative_period, d->pressures[0].curve.period = -1)
+SPOIL(rise, d->pressures[0].curve = vsc_default_curve(VSC_CURVE_DOUBLE_HILL);
+      d->pressures[0].curve.rise = 0)
+SPOIL(fall, d->pressures[0].curve = vsc_default_curve(VSC_CURVE_TANH_PAIR);
+      d->pressures[0].curve.fall = -20)
+SPOIL(power, d->pressures[0].curve = vsc_default_curve(VSC_CURVE_DOUBLE_HILL);
+      d->pressures[0].curve.fall_power = 0)
+SPOIL(start, d->pressures[0].curve.start = INFINITY)
+SPOIL(peak, d->pressures[0].peak = NAN)
+SPOIL(shared_region, d->materials[1].region_count = 1; d->materials[1].regions[0] = 3)
+SPOIL(two_rests, d->materials[0].region_count = 0)
+SPOIL(range, d->surfaces[0].low = 2)
+SPOIL(box, d->sets[0].kind = VSC_SELECT_BOX; d->sets[0].box_low[1] = 1)
+SPOIL(normal, d->sets[0].normal[2] = 0)
+SPOIL(tolerance, d->sets[0].tolerance = -0.1)
+SPOIL(same_name, vsc_copy_name(d->sets[1].name, "base"))
+SPOIL(no_name, d->surfaces[0].name[0] = '\0')
+SPOIL(set_of_surface, vsc_copy_name(d->sets[1].array, "edo"))
+SPOIL(support_set, vsc_copy_name(d->supports[0].set, "bse"))
+SPOIL(boundary_set, vsc_copy_name(d->supports[0].set, "boundary"))
+SPOIL(held, d->supports[0].held[2] = 0)
+SPOIL(pressure_surface, vsc_copy_name(d->pressures[0].surface, "endocard"))
+SPOIL(gravity, d->gravity[1] = NAN)
+SPOIL(end_time, d->end_time = 0)
+SPOIL(step, d->step = -0.1)
+SPOIL(safety, d->safety = 0)
+
+static void every_rule_names_its_key(void **state)
+{
+  (void)state;
+  const struct {
+    spoil *apply;
+    const char *start, *said;
+  } cases[] = {
+      {no_material, "materials: ", "at least one"},
+      {axial, "materials[1].axial.n: -5 kPa: ", "zero or more"},
+      {axial_nan, "materials[0].axial.f: ", "zero or more"},
+      {angular, "materials[0].angular.sn: ", "zero or more"},
+      {damping, "materials[0].damping.f: ", "zero or more"},
+      {density, "materials[0].density: 0 mg/mm3: ", "above zero"},
+      {no_volume, "materials[1].volume_modulus: 0 kPa: ", "10 to 100 times"},
+      {huge_volume, "materials[1].volume_modulus: ", "above zero"},
+      {stabilization, "materials[0].stabilization: ", "zero or more"},
+      {tension, "materials[0].active.tension: -60 kPa: ", "zero or more"},
+      {rest_stretch, "materials[1].active.rest_stretch: 0: ", "up to 1"},
+      {stiffness, "materials[1].active.stiffness: ", "zero or more"},
+      {delay, "materials[0].active.delay: ", "finite"},
+      {delay_unit, "materials[0].active.delay_unit: ", "above zero"},
+      {one_point, "materials[0].active.curve.times: 1 points: ", "at least two"},
+      {falling, "materials[0].active.curve.times[2]: 100 ms: ", "rise"},
+      {table_nan, "materials[0].active.curve.values[1]: ", "finite"},
+      {duration, "pressures[0].curve.duration: ", "above zero"},
+      {period, "pressures[0].curve.period: 200 ms: ", "longer period"},
+      {negative_period, "pressures[0].curve.period: ", "zero or more"},
+      {rise, "pressures[0].curve.rise: ", "above zero"},
+      {fall, "pressures[0].curve.fall: -20 ms: ", "above zero"},
+      {power, "pressures[0].curve.fall_power: 0: ", "above zero"},
+      {start, "pressures[0].curve.start: ", "finite"},
+      {peak, "pressures[0].peak: ", "finite"},
+      {shared_region, "materials[1].regions: 3: ", "muscle"},
+      {two_rests, "materials[1].regions: ", "list regions"},
+      {range, "surfaces[0].range: ", "not be above"},
+      {box, "node_sets[0].box.low: 1 mm: ", "box.high"},
+      {normal, "node_sets[0].plane.normal: ", "not zero"},
+      {tolerance, "node_sets[0].plane.tolerance: ", "zero or more"},
+      {same_name, "node_sets[1].name: ", "node_sets[0] already"},
+      {no_name, "surfaces[0].name: ", "give it a name"},
+      {set_of_surface, "node_sets[1].surface: ", "the nearest is endo"},
+      {support_set, "supports[0].set: ", "the nearest is base"},
+      {boundary_set, "supports[0].set: ", "under node_sets"},
+      {held, "supports[0].held: ", "x, y, z"},
+      {pressure_surface, "pressures[0].surface: ", "the nearest is endo"},
+      {gravity, "gravity: ", "finite"},
+      {end_time, "time.end: 0 ms: ", "above zero"},
+      {step, "time.step: -0.1 ms: ", "zero or more"},
+      {safety, "time.safety: 0: ", "up to 1"},
+  };
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    vsc_definition d = make_good();
+    vsc_error error = {.text = ""};
+    cases[i].apply(&d);
+    if (vsc_definition_check(&d, &error) != VSC_INPUT)
+      fail_msg("accepted, without \"%s\"", cases[i].start);
+    if (strncmp(error.text, cases[i].start, strlen(cases[i].start)) != 0)
+      fail_msg("\"%s\" does not begin with \"%s\"", error.text, cases[i].start);
+    if (strstr(error.text, cases[i].said) == NULL)
+      fail_msg("\"%s\" lacks \"%s\"", error.text, cases[i].said);
+    if (cases[i].apply == no_material) d.material_count = 2;
+    vsc_definition_free(&d);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(defaults_are_as_documented),
+      cmocka_unit_test(a_good_definition_passes),
+      cmocka_unit_test(every_rule_names_its_key),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
