@@ -8,11 +8,13 @@
 #include <unistd.h>
 
 #include "base/mem.h"
+#include "base/vec3.h"
 #include "io/pvd.h"
 #include "io/vtk.h"
 #include "mesh/mesh.h"
 #include "tools/plot/raster.h"
 #include "tools/plot/signals.h"
+#include "tools/plot/view.h"
 
 enum { ROUND = 32, DOWN = 12, THICK = 3, FRAMES = 5 };
 
@@ -271,6 +273,32 @@ static void test_near_triangles_hide_far_ones(void **state)
   vsc_raster_free(raster);
 }
 
+// The cup cut open: tissue at the sides, its inner wall in the middle; uncut the outer wall.
+static void test_the_cut_shows_the_cavity(void **state)
+{
+  (void)state;
+  vsc_mesh *mesh = make_cup();
+  for (int whole = 0; whole < 2; whole++) {
+    const double up[3] = {0, 0, 1}, from[3] = {0, -1, 0};
+    const vsc_camera camera = vsc_camera_make(mesh, up, from, whole);
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    vsc_camera_extend(&camera, mesh, NULL, low, high);
+    assert_close(high[0] - low[0], 52, 0.02, 0);  // twice the outer radius
+    assert_close(vsc_dot(camera.right, (double[]){1, 0, 0}), 1, 1e-12, 0);
+    vsc_raster *raster = vsc_raster_create(104, 160);
+    assert_non_null(raster);
+    assert_int_equal(vsc_view_draw(&camera, mesh, NULL, NULL, 1, low, 2, raster, NULL), VSC_OK);
+    const size_t middle = 90 * 104 + 52, wall = 75 * 104 + 6, corner = 159 * 104 + 2;
+    assert_int_equal(raster->kind[middle], VSC_KIND_SURFACE);
+    assert_int_equal(raster->kind[wall], whole ? VSC_KIND_SURFACE : VSC_KIND_CUT);
+    assert_int_equal(raster->kind[corner], 0);
+    // The inner wall lies behind the axis, the outer wall before it.
+    assert_int_equal(raster->depth[middle] > 0, !whole);
+    vsc_raster_free(raster);
+  }
+  vsc_mesh_free(mesh);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -279,6 +307,7 @@ int main(void)
       cmocka_unit_test(test_says_what_is_wrong),
       cmocka_unit_test(test_signals_have_names_units_and_rows),
       cmocka_unit_test(test_near_triangles_hide_far_ones),
+      cmocka_unit_test(test_the_cut_shows_the_cavity),
   };
   return cmocka_run_group_tests(tests, make_results, remove_results);
 }

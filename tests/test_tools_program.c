@@ -57,16 +57,18 @@ static int line_count(const char *text)
   return lines;
 }
 
-// Two tets on five points with arrays p (points) and c (cells), each value plus `shift`.
-static void write_mesh(const char *file, int nodes, double shift)
+// Tets on points with arrays p (points) and c (cells), each value plus `shift`: one tet of four
+// points, two that share a face (five points), or two apart (eight points).
+static void write_mesh(const char *file, size_t nodes, double shift)
 {
-  static const double points[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1};
-  static const uint32_t tets[8] = {0, 1, 2, 3, 1, 2, 3, 4};
-  double p[15], c[2] = {3 + shift, 4 + shift};
-  for (int i = 0; i < 15; i++) p[i] = i + shift;
+  static const double points[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1,
+                                    1, 1, 1, 2, 1, 1, 1, 2, 1, 1, 1, 2};
+  static const uint32_t shared[8] = {0, 1, 2, 3, 1, 2, 3, 4}, apart[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+  double p[24], c[2] = {3 + shift, 4 + shift};
+  for (int i = 0; i < 24; i++) p[i] = i + shift;
   const vsc_vtk_array arrays[] = {{"p", 3, p, true, false}, {"c", 1, c, false, false}};
-  assert_int_equal(vsc_vtk_write_mesh(in_folder(file), (size_t)nodes, points, (size_t)nodes - 3,
-                                      tets, 0, NULL, 2, arrays, true, NULL),
+  assert_int_equal(vsc_vtk_write_mesh(in_folder(file), nodes, points, nodes == 4 ? 1 : 2,
+                                      nodes == 8 ? apart : shared, 0, NULL, 2, arrays, true, NULL),
                    VSC_OK);
 }
 
@@ -87,6 +89,7 @@ static int make_files(void **state)
   write_mesh("a.vtu", 5, 0);
   write_mesh("b.vtu", 5, 0.5);
   write_mesh("small.vtu", 4, 0);
+  write_mesh("apart.vtu", 8, 0);
   write_series("a.pvd", (const char *[]){"a.vtu", "a.vtu", "a.vtu"}, (double[]){0, 0.1, 0.2}, 3);
   write_series("b.pvd", (const char *[]){"a.vtu", "b.vtu"}, (double[]){0, 0.1}, 2);
   const size_t size[3] = {2, 3, 4};
@@ -247,6 +250,8 @@ static void test_compare_refuses(void **state)
   (void)state;
   assert_int_equal(run("compare a.vtu small.vtu"), 2);
   assert_holds(complained, "5 points and 2 tets");
+  assert_int_equal(run("compare a.vtu apart.vtu"), 2);
+  assert_holds(complained, "8 and 2");
   assert_int_equal(run("compare a.vtu a.pvd"), 2);
   assert_int_equal(run("compare a.vtu none.vtu"), 2);
   assert_int_equal(run("compare a.pvd none.pvd"), 2);
