@@ -13,11 +13,12 @@ static inline uint32_t box_node(const int n[3], int i, int j, int k)
   return (uint32_t)(i + (n[0] + 1) * (j + (n[1] + 1) * k));
 }
 
-// Raw (not cleaned) mesh of n[0] x n[1] x n[2] cubes with edge `h`; `solid(i, j, k)` says which cubes
-// are there (NULL: all). Half of the tets come left-handed: vsc_mesh_clean has to turn them.
+// Raw (not cleaned) mesh of n[0] x n[1] x n[2] cubes with edge `h`; `solid(i, j, k)` says which
+// cubes are there (NULL: all). Half of the tets come left-handed: vsc_mesh_clean has to turn them.
 static inline vsc_mesh *box_mesh_raw(const int n[3], double h, int (*solid)(int, int, int))
 {
-  static const int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+  static const int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2},
+                                   {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   const size_t nodes = (size_t)(n[0] + 1) * (size_t)(n[1] + 1) * (size_t)(n[2] + 1);
   vsc_mesh *mesh = vsc_mesh_create(nodes, 6 * (size_t)n[0] * (size_t)n[1] * (size_t)n[2], 0);
   if (mesh == NULL) abort();

@@ -58,7 +58,7 @@ static inline const char *scratch_text(const char *name, const char *text)
   return scratch_bytes(name, text, strlen(text));
 }
 
-// The content of a file with a zero behind it, from malloc; its length goes to *bytes (may be NULL).
+// The content of a file with a zero behind it, from calloc; its length goes to *bytes, if any.
 static inline char *scratch_load(const char *path, size_t *bytes)
 {
   FILE *stream = fopen(path, "rb");

@@ -44,11 +44,13 @@ static void broken_meshes_are_refused_with_ids(void **state)
   assert_refused((uint32_t[]){1, 2, 3, 5}, good, "not among the 5", "cells 77");
   assert_refused((uint32_t[]){1, 2, 3, UINT32_MAX}, good, "not among", "cells 77");
   assert_refused((uint32_t[]){1, 2, 3, 3}, good, "same point twice", "cells 77");
-  assert_refused((uint32_t[]){1, 2, 3, 4}, (double[]){1. / 3, 1. / 3, 1. / 3}, "degenerate", "cells 77");
+  assert_refused((uint32_t[]){1, 2, 3, 4}, (double[]){1. / 3, 1. / 3, 1. / 3}, "degenerate",
+                 "cells 77");
   assert_refused((uint32_t[]){1, 2, 3, 4}, (double[]){1, 0, 0}, "degenerate", "cells 77");
   assert_refused((uint32_t[]){1, 2, 3, 4}, (double[]){1, 1, NAN}, "not finite", "points 99");
   assert_refused((uint32_t[]){1, 2, 3, 4}, (double[]){-INFINITY, 1, 1}, "not finite", "points 99");
-  assert_refused((uint32_t[]){1, 2, 3, 4}, (double[]){1e200, 1e200, 1e200}, "degenerate", "cells 77");
+  assert_refused((uint32_t[]){1, 2, 3, 4}, (double[]){1e200, 1e200, 1e200}, "degenerate",
+                 "cells 77");
 }
 
 static void a_thin_tet_is_not_degenerate(void **state)

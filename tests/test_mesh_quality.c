@@ -9,7 +9,8 @@
 static vsc_mesh *one_tet(const double nodes[12])
 {
   vsc_mesh *mesh;
-  assert_int_equal(vsc_mesh_from_arrays(4, nodes, 1, (uint32_t[]){0, 1, 2, 3}, &mesh, NULL), VSC_OK);
+  const uint32_t tet[4] = {0, 1, 2, 3};
+  assert_int_equal(vsc_mesh_from_arrays(4, nodes, 1, tet, &mesh, NULL), VSC_OK);
   return mesh;
 }
 

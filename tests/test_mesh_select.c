@@ -22,12 +22,14 @@ static void list_triangles(fixture *f)
   assert_true(VSC_NEW(mesh->triangles, 3 * f->boundary.count));
   for (size_t t = 0; t < f->boundary.count; t++) {
     const uint32_t *node = f->boundary.triangles + 3 * t;
-    if (mesh->nodes[3 * node[0] + 2] + mesh->nodes[3 * node[1] + 2] + mesh->nodes[3 * node[2] + 2] > 0)
-      continue;
+    double height = 0;
+    for (int i = 0; i < 3; i++) height += mesh->nodes[3 * (size_t)node[i] + 2];
+    if (height > 0) continue;
     uint32_t *to = mesh->triangles + 3 * mesh->triangle_count++;
     for (int i = 0; i < 3; i++) to[i] = node[2 - i];
   }
-  const uint32_t inner[3] = {box_node(SIZE, 0, 0, 0), box_node(SIZE, 1, 0, 0), box_node(SIZE, 1, 1, 1)};
+  const uint32_t inner[3] = {box_node(SIZE, 0, 0, 0), box_node(SIZE, 1, 0, 0),
+                             box_node(SIZE, 1, 1, 1)};
   memcpy(mesh->triangles + 3 * mesh->triangle_count++, inner, sizeof inner);
   vsc_array *mark = vsc_arrays_add(&mesh->triangle_data, "mark", 1, mesh->triangle_count);
   for (size_t t = 0; t < mesh->triangle_count; t++)
@@ -68,7 +70,8 @@ static size_t count_nodes(const fixture *f, const vsc_selector *selector,
                           const vsc_surface *surfaces, size_t surface_count)
 {
   vsc_node_set set;
-  assert_int_equal(vsc_select_nodes(f->mesh, selector, surfaces, surface_count, &set, NULL), VSC_OK);
+  assert_int_equal(vsc_select_nodes(f->mesh, selector, surfaces, surface_count, &set, NULL),
+                   VSC_OK);
   assert_string_equal(set.name, selector->name);
   for (size_t i = 1; i < set.count; i++) assert_true(set.nodes[i] > set.nodes[i - 1]);
   const size_t count = set.count;
@@ -192,7 +195,8 @@ static void short_memory_is_reported(void **state)
     for (long after = 0; after < 5; after++) {
       vsc_surface surface;
       vsc_alloc_fail_after(after);
-      const vsc_status status = vsc_select_surface(f->mesh, &f->boundary, selectors[s], &surface, NULL);
+      const vsc_status status =
+        vsc_select_surface(f->mesh, &f->boundary, selectors[s], &surface, NULL);
       vsc_alloc_fail_after(-1);
       assert_int_equal(status, VSC_SYSTEM);
       assert_null(surface.triangles);

@@ -150,8 +150,8 @@ static void the_cap_moves_with_its_rim(void **state)
   vsc_mesh_free(mesh);
 }
 
-// Random triangles on few nodes: edges of every multiplicity. Whatever comes out, the rims close the
-// surface, which shows in a volume that does not change with translation.
+// Random triangles on few nodes: edges of every multiplicity. Whatever comes out, the rims close
+// the surface, which shows in a volume that does not change with translation.
 static void any_triangles_can_be_closed(void **state)
 {
   (void)state;

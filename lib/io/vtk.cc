@@ -192,7 +192,8 @@ std::string cell_kind(int type)
 {
   static const std::map<int, const char *> names = {
     {VTK_EMPTY_CELL, "empty cells"}, {VTK_VERTEX, "vertices"}, {VTK_POLY_VERTEX, "point clouds"},
-    {VTK_LINE, "lines"}, {VTK_POLY_LINE, "polylines"}, {VTK_TRIANGLE_STRIP, "triangle strips"},
+    {VTK_LINE, "lines"}, {VTK_POLY_LINE, "polylines"}, {VTK_TRIANGLE, "triangles"},
+    {VTK_TRIANGLE_STRIP, "triangle strips"},
     {VTK_POLYGON, "polygons"}, {VTK_PIXEL, "pixels"}, {VTK_QUAD, "quads"}, {VTK_VOXEL, "voxels"},
     {VTK_HEXAHEDRON, "hexahedra"}, {VTK_WEDGE, "wedges"}, {VTK_PYRAMID, "pyramids"},
     {VTK_QUADRATIC_TETRA, "quadratic tetrahedra"}, {VTK_QUADRATIC_TRIANGLE, "quadratic triangles"}};

@@ -12,8 +12,8 @@
 typedef struct vsc_axes {
   size_t count;    // tets
   double *frames;  // count x 3 x 3: rows f, s, n
-  uint8_t *known;  // count: 1 where the fibre is known; 0 where there is none: such a tet is passive
-                   // and its frame is the global axes
+  uint8_t *known;  // count: 1 where the fibre is known; 0 where there is none: such a tet is
+                   // passive and its frame is the global axes
 } vsc_axes;
 
 // Axes of `count` tets: global axes, all unknown. NULL when memory is short.

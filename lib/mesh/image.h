@@ -12,9 +12,8 @@ typedef struct vsc_image {
   double origin[3];     // position of point (0,0,0), mm
   double spacing[3];    // mm, > 0
   double direction[9];  // columns: unit vectors of i, j, k (row-major 3x3); may be left-handed
-  vsc_arrays data;      // one tuple per point, i fastest. A file's cell arrays are kept as well: the
-                        // reader turns an image whose arrays lie on cells into one whose points are
-                        // the cell centres
+  vsc_arrays data;      // one tuple per point, i fastest. An image file whose arrays lie on cells
+                        // is read as an image whose points are the cell centres
 } vsc_image;
 
 // An image of size[0] x size[1] x size[2] points without arrays: origin 0, spacing 1, direction the

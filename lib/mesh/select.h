@@ -13,7 +13,7 @@
 typedef enum vsc_select_kind {
   VSC_SELECT_BOUNDARY,    // the whole boundary
   VSC_SELECT_NODE_ARRAY,  // nodes whose value of a node array lies in [low, high]
-  VSC_SELECT_TRIANGLE_ARRAY,  // triangles of the file whose value of a cell array lies in [low, high]
+  VSC_SELECT_TRIANGLE_ARRAY,  // triangles of the file whose cell array's value is in [low, high]
   VSC_SELECT_BOX,         // inside or on a box
   VSC_SELECT_PLANE,       // within a distance of a plane
   VSC_SELECT_SURFACE,     // the nodes of a surface that has a name of its own

@@ -36,8 +36,8 @@ void vsc_cavity_free(vsc_cavity *cavity);
 
 // The volume enclosed, mm^3: by the divergence theorem minus one sixth of the sum of a . (b x c)
 // over triangles and caps, seen from one of the nodes, so that it does not change with translation.
-// Positive where the triangles' normals, which point out of the tissue, point into the cavity, as an
-// endocardium's do; negative for a surface that encloses the tissue. Node i lies at
+// Positive where the triangles' normals, which point out of the tissue, point into the cavity, as
+// an endocardium's do; negative for a surface that encloses the tissue. Node i lies at
 // positions[stride i .. stride i + 2].
 double vsc_cavity_volume(const vsc_cavity *cavity, const double *positions, size_t stride);
 
