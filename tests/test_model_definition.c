@@ -7,8 +7,8 @@
 #include "close.h"
 #include "model/fiber_def.h"
 
-// A definition that obeys every rule: two materials, an active one with a table, one surface, one node
-// set, a support and a pressure.
+// A definition that obeys every rule: two materials, an active one with a table, one surface,
+// two node sets, a support and a pressure.
 static vsc_definition make_good(void)
 {
   vsc_definition d = vsc_default_definition();

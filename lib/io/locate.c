@@ -48,8 +48,8 @@ static vsc_status fail_syntax(const yaml_parser_t *parser, const char *file, con
 static vsc_status check_nodes(yaml_document_t *document, const char *file, vsc_error *error)
 {
   if (yaml_document_get_root_node(document) == NULL)
-    return vsc_fail(error, VSC_INPUT,
-                    "%s:1: an empty scene; print a template with viscera schema", file);
+    return vsc_fail(error, VSC_INPUT, "%s:1: an empty scene; print a template with viscera schema",
+                    file);
   for (yaml_node_t *node = document->nodes.start; node < document->nodes.top; node++) {
     if (node->type != YAML_MAPPING_NODE) continue;
     yaml_node_pair_t *const top = node->data.mapping.pairs.top;

@@ -14,8 +14,8 @@ typedef struct vsc_locator vsc_locator;
 vsc_status vsc_locator_open(const char *file, const char *text, size_t size, vsc_locator **locator,
                             vsc_error *error);
 
-// The line, counted from 1, of a key such as "materials[0].axial.f"; where the text lacks it, the line
-// of the innermost part of it that is there.
+// The line, counted from 1, of a key such as "materials[0].axial.f"; where the text lacks it, the
+// line of the innermost part of it that is there.
 size_t vsc_locator_line(const vsc_locator *locator, const char *key);
 
 void vsc_locator_close(vsc_locator *locator);  // NULL is fine

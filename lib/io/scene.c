@@ -153,9 +153,9 @@ static vsc_status read_text(vsc_reading *reading, const char *text, size_t size,
 vsc_status vsc_scene_read(const char *file, const char *const *settings, size_t setting_count,
                           vsc_scene **scene, vsc_error *error)
 {
-  char *text;
-  size_t size;
-  vsc_locator *locator;
+  char *text = NULL;
+  size_t size = 0;
+  vsc_locator *locator = NULL;
   if (strlen(file) >= VSC_PATH)
     return vsc_fail(error, VSC_INPUT, "%.60s...: a file name of more than %d bytes; shorten it",
                     file, VSC_PATH - 1);

@@ -34,7 +34,9 @@ typedef struct vsc_scene {
 } vsc_scene;
 
 // Reads a scene file. `settings` (setting_count of them) are `key=value` texts that replace or add
-// values after the file is read: "time.end=0.4 s", "materials[0].axial.f=12 kPa". Fails with
+// values after the file is read: "time.end=0.4 s", "materials[0].axial.f=12 kPa"; a list grows at
+// its end ("output.cavities[0]=endo"), and whole parts are written in YAML's short form
+// ("gravity=[0 m/s2, 0 m/s2, -9.81 m/s2]"). Fails with
 // VSC_INPUT and "file:line: key: what was expected, the nearest known key". On success the caller
 // owns *scene.
 vsc_status vsc_scene_read(const char *file, const char *const *settings, size_t setting_count,
@@ -42,8 +44,8 @@ vsc_status vsc_scene_read(const char *file, const char *const *settings, size_t 
 
 void vsc_scene_free(vsc_scene *scene);  // NULL is fine
 
-// Writes the scene as understood, every default filled in, as YAML that vsc_scene_read reads back to
-// the same scene. File names are written absolute.
+// Writes the scene as understood, every default filled in, as YAML that vsc_scene_read reads back
+// to the same scene, in one step (temporary name, then renamed). File names are written absolute.
 vsc_status vsc_scene_write(const vsc_scene *scene, const char *file, vsc_error *error);
 
 // Prints a commented template of every key with its default, unit and meaning to `stream`. It is

@@ -14,8 +14,10 @@ vsc_status vsc_scene_file_exists(vsc_reading *reading, const char *file)
 {
   struct stat found;
   if (stat(file, &found) != 0)
-    return vsc_reading_fail(reading, "%s: %s; expected a file, relative names count from the "
-                            "scene's folder", file, strerror(errno));
+    return vsc_reading_fail(reading,
+                            "%s: %s; expected a file, relative names count from the "
+                            "scene's folder",
+                            file, strerror(errno));
   if (!S_ISREG(found.st_mode)) return vsc_reading_fail(reading, "%s: not a file", file);
   if (access(file, R_OK) != 0)
     return vsc_reading_fail(reading, "%s: %s; make it readable", file, strerror(errno));
@@ -38,12 +40,14 @@ vsc_status vsc_selector_finish(vsc_reading *reading, const vsc_slot *slots, void
   const vsc_selector *selector = target;
   (void)slots;
   if ((int)selector->kind < 0)
-    return vsc_reading_fail(reading, "says not where; give node_array, triangle_array, box, plane "
+    return vsc_reading_fail(reading,
+                            "says not where; give node_array, triangle_array, box, plane "
                             "or boundary (a node set also: surface)");
-  const bool array = selector->kind == VSC_SELECT_NODE_ARRAY ||
-                     selector->kind == VSC_SELECT_TRIANGLE_ARRAY;
+  const bool array =
+      selector->kind == VSC_SELECT_NODE_ARRAY || selector->kind == VSC_SELECT_TRIANGLE_ARRAY;
   if (array && isnan(selector->low))
-    return vsc_reading_fail(reading, "an array without value or range; give value: 1 or range: "
+    return vsc_reading_fail(reading,
+                            "an array without value or range; give value: 1 or range: "
                             "[0.5, 1.5]");
   return VSC_OK;
 }

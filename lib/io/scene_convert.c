@@ -43,8 +43,7 @@ static vsc_status refuse_for_kind(vsc_reading *reading, const vsc_group *group, 
 {
   const int kind = vsc_group_kind(group, target);
   for (size_t i = 0; i < group->row_count; i++)
-    if (group->rows[i].kind == VSC_ROW_CHOICE &&
-        (int)group->rows[i].offset == group->kind_offset)
+    if (group->rows[i].kind == VSC_ROW_CHOICE && (int)group->rows[i].offset == group->kind_offset)
       return vsc_reading_fail(reading, "means nothing for %s: %s; leave it out", group->rows[i].key,
                               vsc_word_of(group->rows[i].words, kind));
   return vsc_reading_fail(reading, "means nothing without an array; leave it out");

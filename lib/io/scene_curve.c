@@ -63,8 +63,10 @@ static vsc_status read_lines(vsc_reading *reading, FILE *stream, const char *fil
     if (status != VSC_OK) return status;
   }
   if (curve->point_count >= 2) return VSC_OK;
-  return vsc_reading_fail(reading, "%s: %zu points; expected a header line and at least two lines "
-                          "time,value", file, curve->point_count);
+  return vsc_reading_fail(reading,
+                          "%s: %zu points; expected a header line and at least two lines "
+                          "time,value",
+                          file, curve->point_count);
 }
 
 vsc_status vsc_scene_read_table(vsc_reading *reading, const char *file, double unit,
@@ -89,9 +91,9 @@ static vsc_status read_file(vsc_reading *reading, const char *name, const char *
   size_t length = vsc_enter(reading, "time_unit");
   if (unit_text == NULL)
     return vsc_reading_fail(reading, "missing; give the unit of the file's times, such as ms");
-  const vsc_row row = {.key = "time_unit", .kind = VSC_ROW_UNIT, .quantity = VSC_TIME, .text = "ms"};
-  vsc_status status =
-      vsc_row_read(reading, &row, &(vsc_slot){.value = (void *)unit_text}, &unit);
+  const vsc_row row = {
+      .key = "time_unit", .kind = VSC_ROW_UNIT, .quantity = VSC_TIME, .text = "ms"};
+  vsc_status status = vsc_row_read(reading, &row, &(vsc_slot){.value = (void *)unit_text}, &unit);
   if (status != VSC_OK) return status;
   vsc_leave(reading, length);
   length = vsc_enter(reading, "file");

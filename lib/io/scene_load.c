@@ -12,7 +12,7 @@ enum { MOST_STEPS = 16, STEP = 80 };
 // What libcyaml logged: the first message, then the way out of the place where it stopped.
 typedef struct complaint {
   char message[160];
-  size_t line;                   // 1-based; 0: not said
+  size_t line;  // 1-based; 0: not said
   size_t step_count;
   char steps[MOST_STEPS][STEP];  // ".key" or "[item]", the innermost first
 } complaint;
@@ -53,8 +53,8 @@ static cyaml_schema_value_t row_value(const vsc_row *row)
   if (is_list(row)) {
     const bool groups = row->kind == VSC_ROW_GROUPS;
     const cyaml_schema_value_t *entry = groups ? item_value(row->group) : &text_value;
-    const bool filled = row->kind == VSC_ROW_VECTOR || row->kind == VSC_ROW_SERIES ||
-                        row->kind == VSC_ROW_FLAGS;
+    const bool filled =
+        row->kind == VSC_ROW_VECTOR || row->kind == VSC_ROW_SERIES || row->kind == VSC_ROW_FLAGS;
     value = (cyaml_schema_value_t){
         .type = CYAML_SEQUENCE,
         .data_size = groups ? entry->data_size : (uint32_t)sizeof(char *),
@@ -124,12 +124,12 @@ static void *allocate(void *context, void *memory, size_t size)
 
 static cyaml_config_t config_for(complaint *heard)
 {
-  return (cyaml_config_t){.log_fn = hear, .log_ctx = heard, .mem_fn = allocate,
-                          .log_level = CYAML_LOG_WARNING};
+  return (cyaml_config_t){
+      .log_fn = hear, .log_ctx = heard, .mem_fn = allocate, .log_level = CYAML_LOG_WARNING};
 }
 
-// Follows the steps, but for the `left` innermost, from `row` (NULL: from the whole scene); returns the
-// last row and appends the steps to the reading's key.
+// Follows the steps, but for the `left` innermost, from `row` (NULL: from the whole scene); returns
+// the last row and appends the steps to the reading's key.
 static const vsc_row *follow(vsc_reading *reading, const complaint *heard, size_t left,
                              const vsc_row *row)
 {

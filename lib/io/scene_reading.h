@@ -24,7 +24,8 @@ typedef struct vsc_reading {
   vsc_error *error;
 } vsc_reading;
 
-// Appends ".key" or "[item]" to reading->key; returns the former length, to which vsc_leave goes back.
+// Appends ".key" or "[item]" to reading->key; returns the former length, to which vsc_leave
+// goes back.
 size_t vsc_enter(vsc_reading *reading, const char *key);
 size_t vsc_enter_item(vsc_reading *reading, size_t item);
 void vsc_leave(vsc_reading *reading, size_t length);
@@ -59,7 +60,8 @@ vsc_status vsc_group_convert(vsc_reading *reading, const vsc_group *group, const
                              void *target);
 
 // One value of any kind but the groups: into its field; and from it, as YAML, to a stream.
-vsc_status vsc_row_read(vsc_reading *reading, const vsc_row *row, const vsc_slot *slot, void *target);
+vsc_status vsc_row_read(vsc_reading *reading, const vsc_row *row, const vsc_slot *slot,
+                        void *target);
 void vsc_row_write(FILE *stream, const vsc_row *row, const void *target);
 
 // Reads a CSV file of two columns, times (of `unit` ms each) and values, into the curve.

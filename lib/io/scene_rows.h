@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shorthands in which the tables of the scene's keys are written. Only for the scene_table*.c files.
+// Shorthands in which the tables of the scene's keys are written; only for scene_table*.c.
 #ifndef VSC_IO_SCENE_ROWS_H
 #define VSC_IO_SCENE_ROWS_H
 

@@ -11,9 +11,9 @@
 typedef struct place {
   const vsc_group *group;  // whose rows the next word of the key names; NULL: none can follow
   vsc_slot *slots;
-  const vsc_row *row;      // the row last named
+  const vsc_row *row;  // the row last named
   vsc_slot *slot;
-  bool item;               // at one item of the row's list
+  bool item;  // at one item of the row's list
   size_t item_number;
 } place;
 
@@ -86,7 +86,8 @@ static vsc_status walk(vsc_reading *reading, place *at, const char *key)
       const bool digits = isdigit((unsigned char)key[1]);
       const size_t item = digits ? strtoul(key + 1, &end, 10) : 0;
       if (!digits || *end != ']' || at->row == NULL)
-        return vsc_reading_fail(reading, "expected a number in brackets behind a list, as in "
+        return vsc_reading_fail(reading,
+                                "expected a number in brackets behind a list, as in "
                                 "materials[0].density");
       status = step_into_item(reading, at, item);
       key = end + 1;

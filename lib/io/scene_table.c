@@ -8,8 +8,8 @@
 // ---- mesh
 
 static const vsc_row mesh_rows[] = {
-    {"file", .kind = VSC_ROW_PATH, AT(vsc_scene, mesh_file), .needed = VSC_ALWAYS, .text = "mesh.vtu",
-     .meaning = "tetrahedra, .vtu or legacy .vtk; relative to this scene's folder"},
+    {"file", .kind = VSC_ROW_PATH, AT(vsc_scene, mesh_file), .needed = VSC_ALWAYS,
+     .text = "mesh.vtu", .meaning = "tetrahedra, .vtu or legacy .vtk; relative to this scene's folder"},
     {"unit", UNIT(vsc_scene, mesh_unit, VSC_LENGTH), .needed = VSC_ALWAYS, .text = "mm",
      .meaning = "length of one unit of its coordinates: mm, m, 0.1 mm"},
     {"region_array", NAME(vsc_scene, definition.region_array), .commented = true, .text = "region",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every key of the scene file, one row each: what it holds, where it goes, how the template shows it.
-// Reading, checking, settings, writing and the template all walk these rows; a new key is a new row.
+// Every key of the scene file, one row each: what it holds, where it goes, how the template shows
+// it. Reading, checking, settings, writing and the template walk these rows: a new key, a new row.
 #ifndef VSC_IO_SCENE_TABLE_H
 #define VSC_IO_SCENE_TABLE_H
 
@@ -23,7 +23,7 @@ typedef enum vsc_row_kind {
   VSC_ROW_BOOL,      // true or false; bool
   VSC_ROW_MARK,      // true only; nothing (the key's presence is its meaning)
   VSC_ROW_CHOICE,    // one of `words`; an integer type of `size` bytes
-  VSC_ROW_NAMES,     // up to `count` names, of `words` if there are any; char[count][VSC_NAME], size_t
+  VSC_ROW_NAMES,     // up to `count` names, of `words` if any; char[count][VSC_NAME], size_t
   VSC_ROW_FLAGS,     // some of `words`; int[] of 0 and 1
   VSC_ROW_TEXT,      // any text; nothing: the group's `finish` takes it from the slot
   VSC_ROW_GROUP,     // a mapping with the keys of `group`; a part of the struct
@@ -50,7 +50,7 @@ typedef struct vsc_row {
   const char *zero_word;       // QUANTITY: a word that stands for 0
   unsigned allowed;            // kinds (bits 1 << kind) of the group that have this key; 0: all
   unsigned needed;             // kinds that cannot do without it
-  int selects;                 // the key's presence makes kind - 1 the group's kind; 0: no such thing
+  int selects;                 // 1 + the kind that the key's presence gives the group; 0: none
   bool input_only;             // the same thing is written under another key
   bool commented;              // the template shows it behind a '#'
   void (*after)(void *target); // called when the value has been stored
@@ -59,7 +59,8 @@ typedef struct vsc_row {
 } vsc_row;
 
 // As libcyaml loads it: for each row a slot, NULL where the file lacks the key. A group is an array
-// of row_count slots; a list of groups is `count` such arrays in one; other lists are char *[count].
+// of row_count slots; a list of groups is `count` such arrays in one, other lists are
+// char *[count].
 typedef struct vsc_slot {
   void *value;
   uint64_t count;

@@ -32,8 +32,8 @@ static const vsc_row vsc_node_set_group_rows[] = {
     {"triangle_array", NAME(vsc_selector, array), .selects = 1 + VSC_SELECT_TRIANGLE_ARRAY,
      .commented = true, .text = "surface",
      .meaning = "or by a cell array: the file's triangles with that value"},
-    {"value", .kind = VSC_ROW_BOTH, .quantity = VSC_NUMBER, AT(vsc_selector, low), .allowed = OF_ARRAYS, .input_only = true,
-     .text = "1", .meaning = "of the array"},
+    {"value", .kind = VSC_ROW_BOTH, .quantity = VSC_NUMBER, AT(vsc_selector, low),
+     .allowed = OF_ARRAYS, .input_only = true, .text = "1", .meaning = "of the array"},
     {"range", .kind = VSC_ROW_VECTOR, .quantity = VSC_NUMBER, AT(vsc_selector, low), .count = 2,
      .allowed = OF_ARRAYS, .commented = true, .text = "[0.5, 1.5]",
      .meaning = "or a range of values, both ends included"},
@@ -107,7 +107,8 @@ static const vsc_row map_rows[] = {
 GROUP(static, map, -1);
 
 static const vsc_row array_rows[] = {
-    {"fiber", NAME(vsc_fiber_def, fiber_array), .text = "fiber", .meaning = "cell array of vectors"},
+    {"fiber", NAME(vsc_fiber_def, fiber_array), .text = "fiber",
+     .meaning = "cell array of vectors"},
     {"sheet", NAME(vsc_fiber_def, sheet_array), .text = "sheet",
      .meaning = "likewise; empty: by rule"},
 };

@@ -3,9 +3,8 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "base/mem.h"
+#include "io/replace.h"
 #include "io/scene_reading.h"
 
 static void write_group(FILE *stream, const vsc_group *group, const void *target, int depth,
@@ -55,22 +54,22 @@ static void write_group(FILE *stream, const vsc_group *group, const void *target
 
 vsc_status vsc_scene_write(const vsc_scene *scene, const char *file, vsc_error *error)
 {
-  char temporary[VSC_PATH + 16];
-  if (snprintf(temporary, sizeof temporary, "%s.part", file) >= (int)sizeof temporary)
-    return vsc_fail(error, VSC_INPUT, "%.60s...: a file name of more than %d bytes; shorten it",
-                    file, VSC_PATH - 1);
+  char temporary[VSC_FILE_NAME];
+  const vsc_status status = vsc_replace_begin(file, temporary, error);
+  if (status != VSC_OK) return status;
   FILE *stream = fopen(temporary, "w");
-  if (stream == NULL)
-    return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", temporary, strerror(errno));
-  fprintf(stream, "# The scene as viscera understood it, with every default filled in.\n");
-  write_group(stream, &vsc_scene_group, scene, 0, "");
-  bool good = !ferror(stream);
-  good = fclose(stream) == 0 && good;
-  if (good && rename(temporary, file) == 0) return VSC_OK;
-  const vsc_status status =
-      vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", file, strerror(errno));
-  unlink(temporary);
-  return status;
+  bool good = stream != NULL;
+  if (good) {
+    fputs("# The scene as viscera understood it, with every default filled in.\n", stream);
+    write_group(stream, &vsc_scene_group, scene, 0, "");
+    good = !ferror(stream);
+    good = fclose(stream) == 0 && good;
+  }
+  if (good) return vsc_replace_end(file, temporary, false, error);
+  const int reason = errno;
+  vsc_replace_cancel(temporary);
+  return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s: free some space", file,
+                  strerror(reason));
 }
 
 // ---- template
@@ -85,9 +84,9 @@ static void show_group(FILE *stream, const vsc_group *group, int depth, const ch
     const vsc_row *row = &group->rows[i];
     const bool hide = hidden || row->commented;
     const bool inner = row->group != NULL;
-    const int length = fprintf(stream, "%s%*s%s%s:%s%s", hide ? "# " : "",
-                               depth - (int)strlen(first), "", first, row->key, inner ? "" : " ",
-                               inner ? "" : vsc_row_text(group, row));
+    const int length =
+        fprintf(stream, "%s%*s%s%s:%s%s", hide ? "# " : "", depth - (int)strlen(first), "", first,
+                row->key, inner ? "" : " ", inner ? "" : vsc_row_text(group, row));
     const int gap = length < COMMENT_COLUMN ? COMMENT_COLUMN - length : 1;
     fprintf(stream, "%*s# %s\n", gap, "", row->meaning);
     first = "";
@@ -98,8 +97,10 @@ static void show_group(FILE *stream, const vsc_group *group, int depth, const ch
 
 void vsc_scene_schema(FILE *stream)
 {
-  fputs("# A viscera scene. Every key is here, with its default or an example; lines that\n"
-        "# begin with '# ' are other ways to say the same or what other kinds take: delete the '# '\n"
-        "# to use one. Values carry their unit: 60 kPa, 120 mmHg, 0.8 s, 35 deg.\n", stream);
+  fputs(
+      "# A viscera scene. Every key is here, with its default or an example; lines that\n"
+      "# begin with '# ' are other ways to say the same or what other kinds take: delete the '# '\n"
+      "# to use one. Values carry their unit: 60 kPa, 120 mmHg, 0.8 s, 35 deg.\n",
+      stream);
   show_group(stream, &vsc_scene_group, 0, "", false);
 }

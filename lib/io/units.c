@@ -14,7 +14,7 @@
 enum { COMMON_UNITS = 12, LONGEST_VALUE = 100 };
 
 typedef struct quantity {
-  const char *unit;                   // the library's own
+  const char *unit;  // the library's own
   const char *noun;
   const char *example;
   const char *common[COMMON_UNITS];  // what people write, to guess what a mistyped one meant
@@ -23,13 +23,22 @@ typedef struct quantity {
 static const quantity quantities[] = {
     [VSC_LENGTH] = {"mm", "a length", "3 mm", {"mm", "cm", "m", "um", "nm", "inch"}},
     [VSC_TIME] = {"ms", "a time", "0.8 s", {"ms", "s", "us", "min", "second", "hour"}},
-    [VSC_PRESSURE] = {"kPa", "a pressure", "60 kPa",
-                      {"kPa", "Pa", "MPa", "GPa", "mmHg", "N/m2", "N/mm2", "N/cm2", "bar", "cmH2O"}},
-    [VSC_DENSITY] = {"mg/mm3", "a density", "1.06 g/cm3",
+    [VSC_PRESSURE] = {"kPa",
+                      "a pressure",
+                      "60 kPa",
+                      {"kPa", "Pa", "MPa", "GPa", "mmHg", "N/m2", "N/mm2", "N/cm2", "bar",
+                       "cmH2O"}},
+    [VSC_DENSITY] = {"mg/mm3",
+                     "a density",
+                     "1.06 g/cm3",
                      {"g/cm3", "kg/m3", "mg/mm3", "g/mL", "kg/L", "g/mm3"}},
-    [VSC_VISCOSITY] = {"kPa ms", "a viscosity", "10 Pa s",
+    [VSC_VISCOSITY] = {"kPa ms",
+                       "a viscosity",
+                       "10 Pa s",
                        {"Pa s", "kPa ms", "kPa s", "mPa s", "MPa ms", "poise"}},
-    [VSC_ACCELERATION] = {"mm/ms2", "an acceleration", "9.81 m/s2",
+    [VSC_ACCELERATION] = {"mm/ms2",
+                          "an acceleration",
+                          "9.81 m/s2",
                           {"m/s2", "mm/ms2", "mm/s2", "cm/s2"}},
     [VSC_ANGLE] = {"rad", "an angle", "35 deg", {"deg", "degree", "rad", "radian", "mrad"}},
     [VSC_NUMBER] = {"", "a plain number", "0.8", {NULL}},
@@ -146,7 +155,7 @@ vsc_status vsc_units_read(const char *text, vsc_quantity kind, double *value, vs
 {
   const quantity *q = &quantities[kind];
   char unit[LONGEST_VALUE + 1];
-  double number;
+  double number = 0;
   const vsc_status status = read_number(text, q, &number, unit, error);
   if (status != VSC_OK) return status;
   if (kind == VSC_NUMBER) {

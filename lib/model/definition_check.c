@@ -25,9 +25,9 @@ static void need(checker *c, bool fine, const char *key, double value, const cha
                  const char *remedy)
 {
   if (c->status != VSC_OK || fine) return;
-  c->status = vsc_fail(c->error, VSC_INPUT, "%s%s%s: %g%s%s: %s", c->where,
-                       c->where[0] != '\0' ? "." : "", key, value, unit[0] != '\0' ? " " : "", unit,
-                       remedy);
+  c->status =
+      vsc_fail(c->error, VSC_INPUT, "%s%s%s: %g%s%s: %s", c->where, c->where[0] != '\0' ? "." : "",
+               key, value, unit[0] != '\0' ? " " : "", unit, remedy);
 }
 
 static void need_positive(checker *c, const char *key, double value, const char *unit,
@@ -169,7 +169,8 @@ static void check_selector(checker *c, const vsc_selector *selector)
            "plane.normal", 0, "", "give a vector that is not zero");
       need_not_negative(c, "plane.tolerance", selector->tolerance, "mm");
       break;
-    default: break;
+    default:
+      break;
   }
 }
 

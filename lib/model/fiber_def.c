@@ -9,7 +9,10 @@ vsc_fiber_def vsc_default_fiber(void)
 {
   vsc_fiber_def fiber = {
       .source = VSC_FIBER_NONE,
-      .map = {.scale = degree, .azimuth_sense = 1, .elevation_sense = 1, .image_axes = true,
+      .map = {.scale = degree,
+              .azimuth_sense = 1,
+              .elevation_sense = 1,
+              .image_axes = true,
               .length_unit = 1},
       .endo_angle = 60 * degree,
       .epi_angle = -60 * degree,
