@@ -41,7 +41,8 @@ int vsc_top_axis(const double matrix[6], double axis[3], double values[3])
   gsl_vector_view value_view = gsl_vector_view_array(value, 3);
   gsl_eigen_symmv_workspace space = {
       .size = 3, .d = work[0], .sd = work[1], .gc = work[2], .gs = work[3]};
-  if (gsl_eigen_symmv(&a_view.matrix, &value_view.vector, &vector_view.matrix, &space) != 0) return 0;
+  if (gsl_eigen_symmv(&a_view.matrix, &value_view.vector, &vector_view.matrix, &space) != 0)
+    return 0;
   gsl_eigen_symmv_sort(&value_view.vector, &vector_view.matrix, GSL_EIGEN_SORT_VAL_DESC);
   for (int i = 0; i < 3; i++) axis[i] = vector[3 * i];
   vsc_normalize(axis);

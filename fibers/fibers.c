@@ -32,10 +32,12 @@ static vsc_status find_vectors(const vsc_mesh *mesh, const char *name, const cha
   const vsc_array *array = vsc_arrays_find(&mesh->tet_data, name);
   if (array == NULL) {
     vsc_arrays_hint(&mesh->tet_data, name, hint, sizeof hint);
-    return vsc_fail(error, VSC_INPUT, "the mesh has no array '%s' on its cells for the %s%s", name, what, hint);
+    return vsc_fail(error, VSC_INPUT, "the mesh has no array '%s' on its cells for the %s%s", name,
+                    what, hint);
   }
   if (array->components != 3 || array->tuples != mesh->tet_count)
-    return vsc_fail(error, VSC_INPUT, "cell array '%s' for the %s has %d components, expected a vector of 3", name,
+    return vsc_fail(error, VSC_INPUT,
+                    "cell array '%s' for the %s has %d components, expected a vector of 3", name,
                     what, array->components);
   *vectors = array->values;
   return VSC_OK;
@@ -84,7 +86,8 @@ static vsc_status from_arrays(const vsc_mesh *mesh, const vsc_fiber_def *definit
   const char *name = definition->sheet_array;
   vsc_status status = find_vectors(mesh, definition->fiber_array, "fibre", &fibers, error);
   if (status != VSC_OK) return status;
-  const bool optional = strcmp(name, "sheet") == 0 && vsc_arrays_find(&mesh->tet_data, name) == NULL;
+  const bool optional =
+      strcmp(name, "sheet") == 0 && vsc_arrays_find(&mesh->tet_data, name) == NULL;
   if (name[0] != '\0' && !optional) status = find_vectors(mesh, name, "sheet", &sheets, error);
   if (status != VSC_OK) return status;
   for (size_t e = 0; e < mesh->tet_count; e++) {
@@ -109,7 +112,8 @@ static const vsc_surface *find_surface(const vsc_surface *surfaces, size_t count
   for (size_t k = 0; k < count; k++) {
     if (strcmp(surfaces[k].name, name) == 0) return &surfaces[k];
     if (used < sizeof known)
-      used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", k == 0 ? "" : ", ", surfaces[k].name);
+      used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", k == 0 ? "" : ", ",
+                               surfaces[k].name);
   }
   vsc_fail(error, VSC_INPUT, "helix: no surface '%s' for the %s, known surfaces: %s", name, what,
            count == 0 ? "none" : known);

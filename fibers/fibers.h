@@ -6,14 +6,15 @@
 #include "fibers/sample.h"
 #include "mesh/select.h"
 
-// Gives every tet of `mesh` its axes. `surfaces` (surface_count) are the named surfaces, of which HELIX
-// uses two. Reads the voxel map when there is one. On success *axes is owned by the caller and
-// `report` (not NULL) is filled. Sheet and normal: by the rule of vsc_axes_complete, with the sheet hint
-// that the source gives (ARRAYS: the sheet array; HELIX: the transmural axis; see fibers/synthetic.h).
+// Gives every tet of `mesh` its axes. `surfaces` (surface_count) are the named surfaces, of which
+// HELIX uses two. Reads the voxel map when there is one. On success *axes is owned by the caller
+// and `report` (not NULL) is filled. Sheet and normal: by the rule of vsc_axes_complete, with the
+// sheet hint that the source gives (ARRAYS: the sheet array; HELIX: the transmural axis; see
+// fibers/synthetic.h).
 //
-// ARRAYS: a missing fibre array is VSC_INPUT that names those there are; so is a missing sheet array,
-// unless its name is the default "sheet": then sheets follow the rule. Fibres that are zero (below 1e-6)
-// or not finite are none: the element is passive, unless `fill` is set.
+// ARRAYS: a missing fibre array is VSC_INPUT that names those there are; so is a missing sheet
+// array, unless its name is the default "sheet": then sheets follow the rule. Fibres that are zero
+// (below 1e-6) or not finite are none: the element is passive, unless `fill` is set.
 vsc_status vsc_fibers_make(const vsc_mesh *mesh, const vsc_fiber_def *definition,
                            const vsc_surface *surfaces, size_t surface_count, vsc_axes **axes,
                            vsc_fiber_report *report, vsc_error *error);

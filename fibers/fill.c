@@ -8,7 +8,8 @@
 
 static void add_square(const double v[3], double sum[6])
 {
-  const double square[6] = {v[0] * v[0], v[0] * v[1], v[0] * v[2], v[1] * v[1], v[1] * v[2], v[2] * v[2]};
+  const double square[6] = {v[0] * v[0], v[0] * v[1], v[0] * v[2],
+                            v[1] * v[1], v[1] * v[2], v[2] * v[2]};
   for (int c = 0; c < 6; c++) sum[c] += square[c];
 }
 
@@ -59,8 +60,7 @@ vsc_status vsc_fibers_fill(const vsc_mesh *mesh, vsc_axes *axes, size_t *filled,
   size_t open_count = 0, found = 0;
   for (size_t e = 0; status == VSC_OK && e < axes->count; e++)
     if (!axes->known[e]) open[open_count++] = (uint32_t)e;
-  while (status == VSC_OK &&
-         (found = split_ring(axes, &topology, open, &open_count, ring)) > 0) {
+  while (status == VSC_OK && (found = split_ring(axes, &topology, open, &open_count, ring)) > 0) {
     for (size_t k = 0; k < found; k++)
       mean_of_neighbours(axes, topology.neighbours[ring[k]], &axes->frames[9 * (size_t)ring[k]]);
     for (size_t k = 0; k < found; k++) axes->known[ring[k]] = 1;

@@ -64,9 +64,9 @@ static void gradient_of(const vsc_mesh *mesh, size_t tet, const double *depth, d
 
 typedef struct laplace {
   const vsc_mesh *mesh;
-  double *depth;     // node_count: known values, then the solution
-  int32_t *number;   // node_count
-  size_t free;       // free nodes
+  double *depth;    // node_count: known values, then the solution
+  int32_t *number;  // node_count
+  size_t free;      // free nodes
   cholmod_common common;
   cholmod_sparse *matrix;
   cholmod_dense *right, *solution;
@@ -122,7 +122,8 @@ static vsc_status check_parts(const laplace *problem, vsc_error *error)
   vsc_status status = VSC_OK;
   for (size_t i = 0; i < mesh->node_count && status == VSC_OK; i++)
     if (!held[root_of(parent, (uint32_t)i)])
-      status = vsc_fail(error, VSC_INPUT, "helix: node %u lies in a part of the mesh that touches neither the "
+      status = vsc_fail(error, VSC_INPUT,
+                        "helix: node %u lies in a part of the mesh that touches neither the "
                         "endocardium nor the epicardium: remove that part or extend the surfaces",
                         mesh->node_source[i]);
   vsc_free(held);
@@ -135,14 +136,17 @@ static vsc_status cholmod_failure(const laplace *problem, vsc_error *error)
   switch (problem->common.status) {
     case CHOLMOD_OUT_OF_MEMORY: return vsc_fail_memory(error, "the depth of the wall");
     case CHOLMOD_TOO_LARGE:
-      return vsc_fail(error, VSC_SYSTEM, "helix: %zu free nodes are too many for the solver: use a coarser mesh",
+      return vsc_fail(error, VSC_SYSTEM,
+                      "helix: %zu free nodes are too many for the solver: use a coarser mesh",
                       problem->free);
     case CHOLMOD_NOT_POSDEF:
     case CHOLMOD_DSMALL:
-      return vsc_fail(error, VSC_NUMERICAL, "helix: the depth problem is singular: look for nearly flat "
+      return vsc_fail(error, VSC_NUMERICAL,
+                      "helix: the depth problem is singular: look for nearly flat "
                       "tets with `viscera info`");
     default:
-      return vsc_fail(error, VSC_SYSTEM, "helix: CHOLMOD failed with status %d", problem->common.status);
+      return vsc_fail(error, VSC_SYSTEM, "helix: CHOLMOD failed with status %d",
+                      problem->common.status);
   }
 }
 
@@ -218,7 +222,8 @@ vsc_status vsc_helix_depth(const vsc_mesh *mesh, const vsc_surface *endo, const 
                            double *depth, vsc_error *error)
 {
   laplace problem = {.mesh = mesh, .depth = depth};
-  if (!VSC_NEW(problem.number, mesh->node_count)) return vsc_fail_memory(error, "the depth of the wall");
+  if (!VSC_NEW(problem.number, mesh->node_count))
+    return vsc_fail_memory(error, "the depth of the wall");
   mark_known(&problem, endo, epi);
   vsc_status status = check_parts(&problem, error);
   if (status == VSC_OK && problem.free > 0) status = solve_free_nodes(&problem, error);
@@ -249,7 +254,8 @@ static void transmural_axis(const vsc_mesh *mesh, size_t tet, const double *dept
   if (vsc_norm(e_t) * cbrt(volume) > 1e-9) return;
   for (int a = 0; a < 3; a++) {
     e_t[a] = 0;
-    for (int i = 0; i < 4; i++) e_t[a] += nodal[3 * (size_t)mesh->tets[4 * tet + (size_t)i] + (size_t)a];
+    for (int i = 0; i < 4; i++)
+      e_t[a] += nodal[3 * (size_t)mesh->tets[4 * tet + (size_t)i] + (size_t)a];
   }
 }
 
@@ -271,11 +277,11 @@ vsc_status vsc_fibers_helix(const vsc_mesh *mesh, const vsc_fiber_def *definitio
 {
   const double length = vsc_norm(definition->long_axis);
   if (!(isfinite(length) && length > 0))
-    return vsc_fail(error, VSC_INPUT, "helix: the long axis (%g, %g, %g) must not be zero", definition->long_axis[0],
-                    definition->long_axis[1], definition->long_axis[2]);
+    return vsc_fail(error, VSC_INPUT, "helix: the long axis (%g, %g, %g) must not be zero",
+                    definition->long_axis[0], definition->long_axis[1], definition->long_axis[2]);
   if (!isfinite(definition->endo_angle) || !isfinite(definition->epi_angle))
-    return vsc_fail(error, VSC_INPUT, "helix: the angles %g and %g must be finite", definition->endo_angle,
-                    definition->epi_angle);
+    return vsc_fail(error, VSC_INPUT, "helix: the angles %g and %g must be finite",
+                    definition->endo_angle, definition->epi_angle);
   double *depth = NULL, *nodal = NULL;
   vsc_status status = VSC_OK;
   if (!VSC_NEW(depth, mesh->node_count) || !VSC_NEW(nodal, 3 * mesh->node_count))

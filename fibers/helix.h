@@ -17,11 +17,11 @@
 #include "model/fiber_def.h"
 
 // The frame (rows f, s, n) at a point of the wall. `transmural` points outwards (any length),
-// `long_axis` from apex to base (any length), `angle` is the helix angle in radians. e_l is the part
-// of the long axis orthogonal to e_t; where the two are parallel (within 0.06 degrees, at the apex) the
-// global axis with the smallest |component| of e_t takes the long axis's place. s = e_t, which is
-// orthogonal to f by construction; n = f x s. Returns 0, leaving the frame alone, when `transmural`
-// or `long_axis` is zero or not finite; else 1.
+// `long_axis` from apex to base (any length), `angle` is the helix angle in radians. e_l is the
+// part of the long axis orthogonal to e_t; where the two are parallel (within 0.06 degrees, at the
+// apex) the global axis with the smallest |component| of e_t takes the long axis's place. s = e_t,
+// which is orthogonal to f by construction; n = f x s. Returns 0, leaving the frame alone, when
+// `transmural` or `long_axis` is zero or not finite; else 1.
 int vsc_helix_frame(const double transmural[3], const double long_axis[3], double angle,
                     double frame[9]);
 

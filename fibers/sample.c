@@ -10,8 +10,8 @@
 #include "base/vec3.h"
 
 enum {
-  ENOUGH = 16,     // voxel centres in a tet that make a mean
-  POINTS = 20,     // of a tet with fewer, where the map is interpolated
+  ENOUGH = 16,  // voxel centres in a tet that make a mean
+  POINTS = 20,  // of a tet with fewer, where the map is interpolated
 };
 static const double RIDGE = 0.01;  // added to the voxels' variance, in voxels squared
 static const double REACH = 2;     // standard deviations that the mean may be moved by
@@ -41,20 +41,22 @@ typedef struct index_tet {
 
 // ---- Looking up and checking the map
 
-static vsc_status find_array(const vsc_image *image, const char *name, const char *file, const char *key,
-                             const double **values, vsc_error *error)
+static vsc_status find_array(const vsc_image *image, const char *name, const char *file,
+                             const char *key, const double **values, vsc_error *error)
 {
   char hint[256];
   const vsc_array *array = vsc_arrays_find(&image->data, name);
   if (array == NULL) {
     vsc_arrays_hint(&image->data, name, hint, sizeof hint);
-    return vsc_fail(error, VSC_INPUT, "%s: no array '%s' for the map's %s%s", file, name, key, hint);
+    return vsc_fail(error, VSC_INPUT, "%s: no array '%s' for the map's %s%s", file, name, key,
+                    hint);
   }
   const size_t voxels = image->size[0] * image->size[1] * image->size[2];
   if (array->components != 1 || array->tuples != voxels)
-    return vsc_fail(error, VSC_INPUT, "%s: array '%s' for the map's %s has %zu values of %d components, "
-                    "expected one number for each of %zu voxels", file, name, key, array->tuples,
-                    array->components, voxels);
+    return vsc_fail(error, VSC_INPUT,
+                    "%s: array '%s' for the map's %s has %zu values of %d components, "
+                    "expected one number for each of %zu voxels",
+                    file, name, key, array->tuples, array->components, voxels);
   *values = array->values;
   return VSC_OK;
 }
@@ -74,17 +76,22 @@ static vsc_status check_voxels(const angle_map *map, const char *file, vsc_error
     if (weight == 0) continue;
     const size_t i = v % size[0], j = v / size[0] % size[1], k = v / size[0] / size[1];
     if (!(isfinite(weight) && weight > 0))
-      return vsc_fail(error, VSC_INPUT, "%s: weight '%s' of voxel (%zu, %zu, %zu) is %g, must be finite and "
-                      "not negative: correct it or mask the voxel", file, map->def->weight, i, j, k, weight);
+      return vsc_fail(error, VSC_INPUT,
+                      "%s: weight '%s' of voxel (%zu, %zu, %zu) is %g, must be finite and "
+                      "not negative: correct it or mask the voxel",
+                      file, map->def->weight, i, j, k, weight);
     if (!isfinite(map->azimuth[v]) || !isfinite(map->elevation[v]))
-      return vsc_fail(error, VSC_INPUT, "%s: angles of voxel (%zu, %zu, %zu) inside the mask are %g and %g, "
-                      "must be finite: name a mask array that leaves the voxel out", file, i, j, k,
-                      map->azimuth[v], map->elevation[v]);
+      return vsc_fail(error, VSC_INPUT,
+                      "%s: angles of voxel (%zu, %zu, %zu) inside the mask are %g and %g, "
+                      "must be finite: name a mask array that leaves the voxel out",
+                      file, i, j, k, map->azimuth[v], map->elevation[v]);
     with_data++;
   }
   if (with_data == 0)
-    return vsc_fail(error, VSC_INPUT, "%s: none of %zu voxels holds data: mask '%s' must be above 0 and weight "
-                    "'%s' above 0 somewhere", file, voxels, map->def->mask, map->def->weight);
+    return vsc_fail(error, VSC_INPUT,
+                    "%s: none of %zu voxels holds data: mask '%s' must be above 0 and weight "
+                    "'%s' above 0 somewhere",
+                    file, voxels, map->def->mask, map->def->weight);
   return VSC_OK;
 }
 
@@ -96,12 +103,16 @@ static vsc_status check_geometry(const vsc_image *image, const char *file, vsc_e
   vsc_cross(column[0], column[1], normal);
   const double volume = vsc_dot(normal, column[2]);
   if (!(fabs(volume) > 1e-3 && isfinite(volume)))
-    return vsc_fail(error, VSC_INPUT, "%s: the direction matrix has determinant %g, must be 1 or -1: its "
-                    "columns are the unit vectors of the image's axes", file, volume);
+    return vsc_fail(error, VSC_INPUT,
+                    "%s: the direction matrix has determinant %g, must be 1 or -1: its "
+                    "columns are the unit vectors of the image's axes",
+                    file, volume);
   for (int a = 0; a < 3; a++)
     if (!(image->spacing[a] > 0 && isfinite(image->spacing[a])) || !isfinite(image->origin[a]))
-      return vsc_fail(error, VSC_INPUT, "%s: spacing %g mm and origin %g mm along axis %d, must be finite, the "
-                      "spacing above 0", file, image->spacing[a], image->origin[a], a);
+      return vsc_fail(error, VSC_INPUT,
+                      "%s: spacing %g mm and origin %g mm along axis %d, must be finite, the "
+                      "spacing above 0",
+                      file, image->spacing[a], image->origin[a], a);
   return VSC_OK;
 }
 
@@ -125,8 +136,8 @@ static vsc_status open_map(const vsc_image *image, const vsc_angle_map_def *def,
 
 // ---- Gathering the voxels of one tet
 
-static void add_voxel(const angle_map *map, const size_t at[3], double share, const double centre[3],
-                      moments *sum)
+static void add_voxel(const angle_map *map, const size_t at[3], double share,
+                      const double centre[3], moments *sum)
 {
   static const int row[6] = {0, 0, 0, 1, 1, 2}, column[6] = {0, 1, 2, 1, 2, 2};
   const size_t *size = map->image->size;
@@ -134,7 +145,8 @@ static void add_voxel(const angle_map *map, const size_t at[3], double share, co
   const double w = share * weight_of(map, voxel);
   if (w == 0) return;
   const vsc_angle_map_def *def = map->def;
-  const double azimuth = def->azimuth_sense * (map->azimuth[voxel] * def->scale - def->azimuth_zero);
+  const double azimuth =
+      def->azimuth_sense * (map->azimuth[voxel] * def->scale - def->azimuth_zero);
   const double elevation = def->elevation_sense * map->elevation[voxel] * def->scale;
   const double level = cos(elevation);
   const double f[3] = {level * cos(azimuth), level * sin(azimuth), sin(elevation)};
@@ -224,7 +236,8 @@ static size_t gather_inside(const angle_map *map, const index_tet *tet, moments 
 }
 
 // Adds the 8 voxels round a point with their trilinear weights.
-static void gather_round(const angle_map *map, const index_tet *tet, const double point[3], moments *sum)
+static void gather_round(const angle_map *map, const index_tet *tet, const double point[3],
+                         moments *sum)
 {
   const size_t *size = map->image->size;
   double low[3], part[3];
@@ -248,8 +261,8 @@ static void gather_round(const angle_map *map, const index_tet *tet, const doubl
   }
 }
 
-// The points' barycentric coordinates are (i + d) / (3 + 4 d) for all i >= 0 of sum 3; this d makes their
-// plain mean exact for quadratic functions.
+// The points' barycentric coordinates are (i + d) / (3 + 4 d) for all i >= 0 of sum 3; this d makes
+// their plain mean exact for quadratic functions.
 static void gather_interpolated(const angle_map *map, const index_tet *tet, moments *sum)
 {
   const double d = (sqrt(1.89) - 0.9) / 1.2;
@@ -308,8 +321,8 @@ static void turn(const double direction[9], double axis[3])
 }
 
 // Samples one tet; returns false when it finds no voxel with data.
-static bool sample_tet(const angle_map *map, const index_tet *tet, double frame[9], double *coherence,
-                       bool *fallback)
+static bool sample_tet(const angle_map *map, const index_tet *tet, double frame[9],
+                       double *coherence, bool *fallback)
 {
   moments sum = {0};
   double plain[6], moved[6], axis[3], values[3];
@@ -341,11 +354,13 @@ static vsc_status no_overlap(const vsc_mesh *mesh, const angle_map *map, vsc_err
       image_high[a] = fmax(image_high[a], at[a]);
     }
   }
-  return vsc_fail(error, VSC_INPUT, "%s: no element of the mesh, in (%g, %g, %g) to (%g, %g, %g) mm, meets a voxel "
-                  "with data; the image covers (%g, %g, %g) to (%g, %g, %g) mm: check the length units",
-                  map->def->file[0] != '\0' ? map->def->file : "angle map", low[0], low[1], low[2],
-                  high[0], high[1], high[2], image_low[0], image_low[1], image_low[2], image_high[0],
-                  image_high[1], image_high[2]);
+  return vsc_fail(
+      error, VSC_INPUT,
+      "%s: no element of the mesh, in (%g, %g, %g) to (%g, %g, %g) mm, meets a voxel "
+      "with data; the image covers (%g, %g, %g) to (%g, %g, %g) mm: check the length units",
+      map->def->file[0] != '\0' ? map->def->file : "angle map", low[0], low[1], low[2], high[0],
+      high[1], high[2], image_low[0], image_low[1], image_low[2], image_high[0], image_high[1],
+      image_high[2]);
 }
 
 vsc_status vsc_fibers_sample(const vsc_mesh *mesh, const vsc_image *image,

@@ -13,56 +13,58 @@
 
 // What was found, for `viscera check`.
 typedef struct vsc_fiber_report {
-  size_t elements;         // all
-  size_t with_data;        // elements with a fibre of their own
-  size_t filled;           // taken from neighbours
-  size_t passive;          // left without
-  size_t fallback;         // MAP: elements that hold too few voxel centres: the voxels round them
-                           // were interpolated
-  double coherence[3];     // MAP: 10th, 50th, 90th percentile of (l1 - l2) / l1, l1 >= l2 the two
-                           // largest eigenvalues of the mean f f^T: 1 = all voxels agree. Else 0
-  double azimuth[3];       // 10th, 50th, 90th percentile of the axes, degrees, in [0, 180)
-  double elevation[3];     // degrees, in [-90, 90], for azimuth in [0, 180)
-  size_t invalid;          // ARRAYS: zero or non-finite vectors, counted as no fibre
-  size_t invalid_sheets;   // ARRAYS: zero or non-finite sheet vectors, or parallel to the fibre (within
-                           // 1 degree), of elements with a fibre: completed by rule
-  bool constant;           // ARRAYS: all fibres are the same axis (within 0.06 degrees): perhaps a dummy
-  double worst_sheet_angle;  // ARRAYS: largest deviation of sheet and fibre from a right angle, degrees
+  size_t elements;        // all
+  size_t with_data;       // elements with a fibre of their own
+  size_t filled;          // taken from neighbours
+  size_t passive;         // left without
+  size_t fallback;        // MAP: elements that hold too few voxel centres: the voxels round them
+                          // were interpolated
+  double coherence[3];    // MAP: 10th, 50th, 90th percentile of (l1 - l2) / l1, l1 >= l2 the two
+                          // largest eigenvalues of the mean f f^T: 1 = all voxels agree. Else 0
+  double azimuth[3];      // 10th, 50th, 90th percentile of the axes, degrees, in [0, 180)
+  double elevation[3];    // degrees, in [-90, 90], for azimuth in [0, 180)
+  size_t invalid;         // ARRAYS: zero or non-finite vectors, counted as no fibre
+  size_t invalid_sheets;  // ARRAYS: zero or non-finite sheet vectors, or parallel to the fibre
+                          // (within 1 degree), of elements with a fibre: completed by rule
+  bool constant;  // ARRAYS: all fibres are the same axis (within 0.06 degrees): perhaps a dummy
+  double worst_sheet_angle;  // ARRAYS: largest deviation of sheet and fibre from a right angle,
+                             // degrees
 } vsc_fiber_report;
 
-// The axis of each tet is the eigenvector of the largest eigenvalue of the mean of f f^T over the tet,
-// each voxel weighted as `map` says; voxels outside the mask, and those of weight 0, hold nothing.
+// The axis of each tet is the eigenvector of the largest eigenvalue of the mean of f f^T over the
+// tet, each voxel weighted as `map` says; voxels outside the mask, and those of weight 0, hold
+// nothing.
 //
-// Which voxels: those whose centres lie in the tet, each counting once; when fewer than 16 do, the 8
-// voxels round each of 20 points of the tet, with their trilinear weights, which is the mean of the
-// trilinear interpolant. How: the weighted mean of f f^T is moved from the centroid of those voxels
-// to the centroid of the tet along the gradient of their weighted linear fit, by at most twice their
-// standard deviation. So a field that varies linearly is met exactly, also where the mask cuts the
-// neighbourhood. A tet without any such voxel stays unknown.
+// Which voxels: those whose centres lie in the tet, each counting once; when fewer than 16 do, the
+// 8 voxels round each of 20 points of the tet, with their trilinear weights, which is the mean of
+// the trilinear interpolant. How: the weighted mean of f f^T is moved from the centroid of those
+// voxels to the centroid of the tet along the gradient of their weighted linear fit, by at most
+// twice their standard deviation. So it hardly matters that the mask cuts the neighbourhood of a tet
+// at the surface. A tet without any such voxel stays unknown.
 //
-// Origin, spacing and direction of the image are honoured; a left-handed direction too. Sets `known` of
-// all mesh->tet_count axes, the frames of those found (sheets by rule), and all of `report`. VSC_INPUT: an array is missing, has more
-// than one component or not one value per voxel; a flat direction matrix; no voxel with data; voxels
-// with data but non-finite angles or a negative or non-finite weight; an image that lies beside the
-// mesh.
+// Origin, spacing and direction of the image are honoured; a left-handed direction too. Sets
+// `known` of all mesh->tet_count axes, the frames of those found (sheets by rule), and all of
+// `report`. VSC_INPUT: an array is missing, has more than one component or not one value per voxel;
+// a flat direction matrix; no voxel with data; voxels with data but non-finite angles or a negative
+// or non-finite weight; an image that lies beside the mesh.
 vsc_status vsc_fibers_sample(const vsc_mesh *mesh, const vsc_image *image,
                              const vsc_angle_map_def *map, vsc_axes *axes, vsc_fiber_report *report,
                              vsc_error *error);
 
-// Elements without a fibre take the mean axis (top eigenvector of the mean f f^T, and the mean sheet
-// axis in the same way) of the neighbours across their faces that have one, ring by ring, in an
-// order that does not depend on chance. Returns in *filled how many were filled; parts of the mesh
-// that hold no fibre at all stay without.
+// Elements without a fibre take the mean axis (top eigenvector of the mean f f^T, and the mean
+// sheet axis in the same way) of the neighbours across their faces that have one, ring by ring, in
+// an order that does not depend on chance. Returns in *filled how many were filled; parts of the
+// mesh that hold no fibre at all stay without.
 vsc_status vsc_fibers_fill(const vsc_mesh *mesh, vsc_axes *axes, size_t *filled, vsc_error *error);
 
-// Azimuth in [0, 180) and elevation in [-90, 90], degrees, of a unit vector, the same bits for f and -f:
-// f turned so that fy > 0 (or fy = 0, fx >= 0), azimuth = atan2(fy, fx), elevation = asin(fz).
-// A fibre along z has azimuth 0 and elevation 90.
+// Azimuth in [0, 180) and elevation in [-90, 90], degrees, of a unit vector, the same bits for f
+// and -f: f turned so that fy > 0 (or fy = 0, fx >= 0), azimuth = atan2(fy, fx), elevation =
+// asin(fz). A fibre along z has azimuth 0 and elevation 90.
 void vsc_fiber_angles(const double fiber[3], double *azimuth, double *elevation);
 
 // The unit eigenvector `axis` of the largest eigenvalue of a symmetric matrix (xx, xy, xz, yy, yz,
-// zz) by GSL; `values` (may be NULL) takes the eigenvalues, largest first. Returns 0 when the matrix
-// is not finite or zero; else 1.
+// zz) by GSL; `values` (may be NULL) takes the eigenvalues, largest first. Returns 0 when the
+// matrix is not finite or zero; else 1.
 int vsc_top_axis(const double matrix[6], double axis[3], double values[3]);
 
 // Sets elements, with_data, passive and the percentiles of azimuth and elevation from `axes`.

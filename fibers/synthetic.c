@@ -43,15 +43,17 @@ static vsc_status check(const vsc_fiber_def *definition, vsc_error *error)
   const double *d = definition->direction;
   const double length = vsc_norm(d);
   if (definition->source == VSC_FIBER_CONSTANT && !(isfinite(length) && length >= 1e-6))
-    return vsc_fail(error, VSC_INPUT, "constant fibres: direction (%g, %g, %g) must be finite and not zero", d[0],
+    return vsc_fail(error, VSC_INPUT,
+                    "constant fibres: direction (%g, %g, %g) must be finite and not zero", d[0],
                     d[1], d[2]);
   if (definition->source == VSC_FIBER_HELICOIDAL && !isfinite(definition->pitch))
-    return vsc_fail(error, VSC_INPUT, "helicoidal fibres: pitch %g must be finite", definition->pitch);
+    return vsc_fail(error, VSC_INPUT, "helicoidal fibres: pitch %g must be finite",
+                    definition->pitch);
   return VSC_OK;
 }
 
-vsc_status vsc_fibers_synthetic(const vsc_mesh *mesh, const vsc_fiber_def *definition, vsc_axes *axes,
-                                vsc_error *error)
+vsc_status vsc_fibers_synthetic(const vsc_mesh *mesh, const vsc_fiber_def *definition,
+                                vsc_axes *axes, vsc_error *error)
 {
   const vsc_status status = check(definition, error);
   if (status != VSC_OK) return status;
@@ -76,7 +78,8 @@ vsc_status vsc_fibers_synthetic(const vsc_mesh *mesh, const vsc_fiber_def *defin
       case VSC_FIBER_HELICOIDAL: helicoidal(low, high, at, definition->pitch, f, hint); break;
       case VSC_FIBER_RANDOM: gsl_ran_dir_3d(random, &f[0], &f[1], &f[2]); break;
       default:
-        return vsc_fail(error, VSC_INPUT, "fibre source %d is not a formula", (int)definition->source);
+        return vsc_fail(error, VSC_INPUT, "fibre source %d is not a formula",
+                        (int)definition->source);
     }
     axes->known[e] = vsc_axes_complete(f, hint, &axes->frames[9 * e]) != 0;
   }

@@ -12,14 +12,15 @@
 //   CONSTANT      f along `direction`, sheet hint `sheet_direction` (zero: by rule)
 //   HORIZONTAL    f = (1, 0, 0), sheet by rule
 //   DIAGONAL      f = (1, 0, 1) / sqrt 2, sheet by rule
-//   HEMICIRCULAR  r = (x - xm, 0, z - z0) from the bottom middle of the box, f = (r_z, 0, -r_x) / |r|, sheet
-//                 hint r; at r = 0 f = (1, 0, 0)
-//   HELICOIDAL    r = (x - xm, y - ym, 0) from the vertical mid-line, f = cos p (-r_y, r_x, 0) / |r| +
-//                 sin p (0, 0, 1) with p = `pitch`, sheet hint r; on the line f = (0, 0, 1)
+//   HEMICIRCULAR  r = (x - xm, 0, z - z0) from the bottom middle of the box,
+//                 f = (r_z, 0, -r_x) / |r|, sheet hint r; at r = 0 f = (1, 0, 0)
+//   HELICOIDAL    r = (x - xm, y - ym, 0) from the vertical mid-line, sheet hint r,
+//                 f = cos p (-r_y, r_x, 0) / |r| + sin p (0, 0, 1) with p = `pitch`; on the
+//                 line f = (0, 0, 1)
 //   RANDOM        uniform on the sphere, one draw per tet in the mesh's order, from the Mersenne
 //                 twister of GSL with `seed`; sheet by rule
 // VSC_INPUT for another source, a zero or non-finite direction or a non-finite pitch.
-vsc_status vsc_fibers_synthetic(const vsc_mesh *mesh, const vsc_fiber_def *definition, vsc_axes *axes,
-                                vsc_error *error);
+vsc_status vsc_fibers_synthetic(const vsc_mesh *mesh, const vsc_fiber_def *definition,
+                                vsc_axes *axes, vsc_error *error);
 
 #endif

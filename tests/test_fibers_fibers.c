@@ -19,12 +19,14 @@ static const double degree = M_PI / 180;
 static vsc_mesh *block(void)
 {
   vsc_mesh *mesh = NULL;
-  const vsc_block_shape shape = {.cells = {8, 4, 6}, .size = {8, 4, 6}, .tets_per_cell = 5, .jitter = 0.1};
+  const vsc_block_shape shape = {
+      .cells = {8, 4, 6}, .size = {8, 4, 6}, .tets_per_cell = 5, .jitter = 0.1};
   assert_int_equal(vsc_block_mesh(&shape, &mesh, NULL), VSC_OK);
   return mesh;
 }
 
-static vsc_axes *make(const vsc_mesh *mesh, const vsc_fiber_def *definition, vsc_fiber_report *report)
+static vsc_axes *make(const vsc_mesh *mesh, const vsc_fiber_def *definition,
+                      vsc_fiber_report *report)
 {
   vsc_axes *axes = NULL;
   vsc_error error = {.text = ""};
@@ -111,14 +113,16 @@ static void figure_six(void **state)
       double at[3];
       const double *f = &axes->frames[9 * e];
       vsc_mesh_tet_centre(mesh, e, at);
-      const double x = at[0] - 4, y = at[1] - 2, z = at[2], r = hypot(x, y), turn = cos(35 * degree);
+      const double x = at[0] - 4, y = at[1] - 2, z = at[2], r = hypot(x, y),
+                   turn = cos(35 * degree);
       const double expected[4][3] = {{1, 0, 0},
                                      {sqrt(0.5), 0, sqrt(0.5)},
                                      {z / hypot(x, z), 0, -x / hypot(x, z)},
                                      {-turn * y / r, turn * x / r, sin(35 * degree)}};
       for (int a = 0; a < 3; a++)
         assert_close(f[a], expected[source - VSC_FIBER_HORIZONTAL][a], 0, 1e-12);
-      if (source == VSC_FIBER_HELICOIDAL) assert_close(vsc_dot(f + 3, (double[3]){x, y, 0}), r, 1e-12, 0);
+      if (source == VSC_FIBER_HELICOIDAL)
+        assert_close(vsc_dot(f + 3, (double[3]){x, y, 0}), r, 1e-12, 0);
     }
     vsc_axes_free(axes);
   }
@@ -181,12 +185,12 @@ static void arrays_of_the_mesh(void **state)
   refuse(mesh, &definition, "expected a vector");
   vsc_copy_name(definition.sheet_array, "sheet");
   double *sheets = add_vectors(mesh, "sheet", 0, 3, 0);
-  fibers[0] = 1;                 // 10 others stay: not constant
-  fibers[3 + 2] = 0;             // no fibre
-  fibers[6] = NAN;               // no fibre
-  sheets[9 + 2] = 3;             // at 45 degrees
-  sheets[12 + 1] = 0;            // no sheet
-  sheets[15] = INFINITY;         // no sheet
+  fibers[0] = 1;                           // 10 others stay: not constant
+  fibers[3 + 2] = 0;                       // no fibre
+  fibers[6] = NAN;                         // no fibre
+  sheets[9 + 2] = 3;                       // at 45 degrees
+  sheets[12 + 1] = 0;                      // no sheet
+  sheets[15] = INFINITY;                   // no sheet
   sheets[18 + 1] = 0, sheets[18 + 2] = 1;  // along the fibre
   axes = make(mesh, &definition, &report);
   assert_false(report.constant);
@@ -241,12 +245,9 @@ static void map_from_a_file(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(none_is_passive),
-      cmocka_unit_test(one_direction),
-      cmocka_unit_test(figure_six),
-      cmocka_unit_test(random_fibers_fill_the_sphere),
-      cmocka_unit_test(arrays_of_the_mesh),
-      cmocka_unit_test(map_from_a_file),
+      cmocka_unit_test(none_is_passive),    cmocka_unit_test(one_direction),
+      cmocka_unit_test(figure_six),         cmocka_unit_test(random_fibers_fill_the_sphere),
+      cmocka_unit_test(arrays_of_the_mesh), cmocka_unit_test(map_from_a_file),
   };
   return cmocka_run_group_tests_name("fibers/fibers", tests, NULL, NULL);
 }

@@ -128,7 +128,8 @@ static void a_loose_part_is_refused(void **state)
   vsc_mesh *mesh = NULL;
   assert_int_equal(vsc_mesh_from_arrays(8, &nodes[0][0], 2, &tets[0][0], &mesh, NULL), VSC_OK);
   uint32_t first[3] = {0, 1, 2}, second[3] = {1, 2, 3};
-  const vsc_surface endo = {.count = 1, .triangles = first}, epi = {.count = 1, .triangles = second};
+  const vsc_surface endo = {.count = 1, .triangles = first},
+                    epi = {.count = 1, .triangles = second};
   double depth[8];
   vsc_error error = {.text = ""};
   assert_int_equal(vsc_helix_depth(mesh, &endo, &epi, depth, &error), VSC_INPUT);
@@ -187,8 +188,9 @@ static void ventricle_has_its_angles(void **state)
     count[side]++;
     worst = fmax(worst, fabs(angle - (side == 0 ? 60 : -60)));
   }
-  print_message("helix: %.1f inside, %.1f outside, worst %.1f degrees off; sheet . radius >= %.3f\n",
-                sum[0] / (double)count[0], sum[1] / (double)count[1], worst, radial);
+  print_message(
+      "helix: %.1f inside, %.1f outside, worst %.1f degrees off; sheet . radius >= %.3f\n",
+      sum[0] / (double)count[0], sum[1] / (double)count[1], worst, radial);
   assert_close(sum[0] / (double)count[0], 54, 0, 3);
   assert_close(sum[1] / (double)count[1], -54, 0, 3);
   assert_true(worst < 20);
@@ -212,16 +214,19 @@ static void missing_surfaces_and_memory(void **state)
   vsc_axes *axes;
   vsc_fiber_report report;
   vsc_error error = {.text = ""};
-  assert_int_equal(vsc_fibers_make(mesh, &definition, surfaces, 2, &axes, &report, &error), VSC_INPUT);
+  assert_int_equal(vsc_fibers_make(mesh, &definition, surfaces, 2, &axes, &report, &error),
+                   VSC_INPUT);
   assert_non_null(strstr(error.text, "'endo' for the endocardium, known surfaces: x0, x1"));
   vsc_copy_name(definition.endo, "x0");
   vsc_copy_name(definition.epi, "x1");
   definition.long_axis[2] = 0;
-  assert_int_equal(vsc_fibers_make(mesh, &definition, surfaces, 2, &axes, &report, &error), VSC_INPUT);
+  assert_int_equal(vsc_fibers_make(mesh, &definition, surfaces, 2, &axes, &report, &error),
+                   VSC_INPUT);
   assert_non_null(strstr(error.text, "long axis"));
   definition.long_axis[2] = 1;
   definition.epi_angle = NAN;
-  assert_int_equal(vsc_fibers_make(mesh, &definition, surfaces, 2, &axes, &report, &error), VSC_INPUT);
+  assert_int_equal(vsc_fibers_make(mesh, &definition, surfaces, 2, &axes, &report, &error),
+                   VSC_INPUT);
   definition.epi_angle = 0;
   vsc_status status = VSC_SYSTEM;
   long allowed = 0;
@@ -238,7 +243,8 @@ static void missing_surfaces_and_memory(void **state)
   vsc_mesh_free(mesh);
 }
 
-// All four nodes of the first tet lie on the endocardium: it takes the gradient of its surroundings.
+// All four nodes of the first tet lie on the endocardium: it takes the gradient of its
+// surroundings.
 static void a_flat_tet_takes_its_neighbours_gradient(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Real and third-party data, where ../shared/data is there: a human heart's angle map on its mesh, and a
-// phantom of another project that knows its helix angles.
+// Real and third-party data, where ../shared/data is there: a human heart's angle map on its mesh,
+// and a phantom of another project that knows its helix angles.
 #include "close.h"
 
 #include <math.h>
@@ -37,7 +37,8 @@ static double axis_angle(const double a[3], const double b[3])
   return atan2(vsc_norm(across), fabs(vsc_dot(a, b))) / degree;
 }
 
-// The mesh's own fibre array is the voxel nearest to each element: noisier than the mean, not biased.
+// The mesh's own fibre array is the voxel nearest to each element: noisier than the mean, not
+// biased.
 static void human_heart(void **state)
 {
   (void)state;
@@ -67,9 +68,11 @@ static void human_heart(void **state)
   for (size_t e = 0; e < mesh->tet_count; e++)
     angles[e] = axis_angle(&nearest[3 * e], &axes->frames[9 * e]);
   qsort(angles, mesh->tet_count, sizeof *angles, by_value);
-  print_message("human heart: %zu of %zu elements with data, %zu interpolated, %zu filled; from the nearest "
-                "voxel by %.1f (median), %.1f (90 %%) degrees\n", report.with_data, report.elements,
-                report.fallback, report.filled, angles[mesh->tet_count / 2], angles[mesh->tet_count * 9 / 10]);
+  print_message(
+      "human heart: %zu of %zu elements with data, %zu interpolated, %zu filled; from the nearest "
+      "voxel by %.1f (median), %.1f (90 %%) degrees\n",
+      report.with_data, report.elements, report.fallback, report.filled,
+      angles[mesh->tet_count / 2], angles[mesh->tet_count * 9 / 10]);
   assert_true(angles[mesh->tet_count / 2] < 5);
   assert_true(angles[mesh->tet_count * 9 / 10] < 15);
   test_free(angles);
@@ -77,8 +80,8 @@ static void human_heart(void **state)
   vsc_mesh_free(mesh);
 }
 
-// The first eigenvector of each pixel is the helix of its stated angle about its stated wall axes. Its
-// rows run downwards, so that (x, y, z) is left-handed there and y has to be turned.
+// The first eigenvector of each pixel is the helix of its stated angle about its stated wall axes.
+// Its rows run downwards, so that (x, y, z) is left-handed there and y has to be turned.
 static void phantom_of_indi(void **state)
 {
   (void)state;

@@ -30,10 +30,12 @@ static void print_help(void)
       "lv: a left ventricle between two half ellipsoids about z, apex at -z, cut by the plane\n"
       "z = base; node arrays endo, epi, base, rim (0 or 1), cell array region. With map: the\n"
       "azimuth/elevation image of its fibre helix; arrays azimuth, elevation, tissue.\n"
-      "      --endo-radius=R --endo-length=L  the cavity at the equator, from there to the apex [26, 66]\n"
+      "      --endo-radius=R --endo-length=L  the cavity at the equator, from there to the apex "
+      "[26, 66]\n"
       "      --epi-radius=R --epi-length=L    the same for the outside [35.5, 73]\n"
       "      --base=Z                         the base plane above the equator [20]\n"
-      "lv:   --around=N --along=N --layers=N  bricks of 5 tets: around (a multiple of 4), from the apical\n"
+      "lv:   --around=N --along=N --layers=N  bricks of 5 tets: around (a multiple of 4), from the "
+      "apical\n"
       "                                       patch to the base, through the wall [32, 14, 3]\n"
       "map:  --endo-angle=A --epi-angle=A     helix angles, positive is right-handed [60, -60]\n"
       "      --spacing=H                      edge of a voxel [a quarter of the wall]\n\n"
@@ -41,7 +43,8 @@ static void print_help(void)
       "      --cells=NX,NY,NZ                 bricks [4,4,4]\n"
       "      --size=X,Y,Z                     [10,10,10]\n"
       "      --tets=5|6                       tets of a brick [5]\n"
-      "      --jitter=PART --seed=N           inner nodes moved by up to PART of a brick, 0 to 0.3 [0, 1]\n\n"
+      "      --jitter=PART --seed=N           inner nodes moved by up to PART of a brick, 0 to 0.3 "
+      "[0, 1]\n\n"
       "  -o, --output=FILE                    [lv.vtu, lv_angles.vti, block.vtu]\n"
       "  -h, --help                           this text\n\n"
       "Examples:\n"
@@ -51,8 +54,22 @@ static void print_help(void)
 }
 
 enum {
-  ENDO_RADIUS = 256, ENDO_LENGTH, EPI_RADIUS, EPI_LENGTH, BASE, AROUND, ALONG, LAYERS, ENDO_ANGLE,
-  EPI_ANGLE, SPACING, CELLS, SIZE, TETS, JITTER, SEED
+  ENDO_RADIUS = 256,
+  ENDO_LENGTH,
+  EPI_RADIUS,
+  EPI_LENGTH,
+  BASE,
+  AROUND,
+  ALONG,
+  LAYERS,
+  ENDO_ANGLE,
+  EPI_ANGLE,
+  SPACING,
+  CELLS,
+  SIZE,
+  TETS,
+  JITTER,
+  SEED
 };
 
 static const struct option options[] = {
@@ -139,8 +156,11 @@ static vsc_status write_mesh(const char *file, const vsc_mesh *mesh, vsc_error *
   for (size_t a = 0; a < count; a++) {
     const bool node = a < on_nodes;
     const vsc_array *array = node ? &mesh->node_data.items[a] : &mesh->tet_data.items[a - on_nodes];
-    arrays[a] = (vsc_vtk_array){.name = array->name, .components = array->components,
-                                .values = array->values, .on_nodes = node, .integer = true};
+    arrays[a] = (vsc_vtk_array){.name = array->name,
+                                .components = array->components,
+                                .values = array->values,
+                                .on_nodes = node,
+                                .integer = true};
   }
   const vsc_status status =
       vsc_vtk_write_mesh(file, mesh->node_count, mesh->nodes, mesh->tet_count, mesh->tets,
@@ -173,12 +193,12 @@ static vsc_status generate_map(const wish *wish, const char *file, vsc_error *er
   const double degree = M_PI / 180, wall = wish->lv.epi_radius - wish->lv.endo_radius;
   const double spacing = wish->spacing > 0 ? wish->spacing : wall / 4;
   vsc_image *image = NULL;
-  vsc_status status = vsc_lv_map(&wish->lv, wish->endo_angle * degree, wish->epi_angle * degree, spacing,
-                                 &image, error);
+  vsc_status status = vsc_lv_map(&wish->lv, wish->endo_angle * degree, wish->epi_angle * degree,
+                                 spacing, &image, error);
   if (status == VSC_OK) status = vsc_vtk_write_image(file, image, error);
   if (status == VSC_OK)
-    printf("%s: %zu x %zu x %zu voxels of %g mm\n", file, image->size[0], image->size[1], image->size[2],
-           spacing);
+    printf("%s: %zu x %zu x %zu voxels of %g mm\n", file, image->size[0], image->size[1],
+           image->size[2], spacing);
   vsc_image_free(image);
   return status;
 }
@@ -189,7 +209,8 @@ static vsc_status generate_block(const wish *wish, const char *file, vsc_error *
   vsc_status status = vsc_block_mesh(&wish->block, &mesh, error);
   if (status == VSC_OK) status = write_mesh(file, mesh, error);
   if (status == VSC_OK)
-    printf("%s: %zu nodes, %zu tets, %g mm3\n", file, mesh->node_count, mesh->tet_count, mesh_volume(mesh));
+    printf("%s: %zu nodes, %zu tets, %g mm3\n", file, mesh->node_count, mesh->tet_count,
+           mesh_volume(mesh));
   vsc_mesh_free(mesh);
   return status;
 }
@@ -210,7 +231,8 @@ static vsc_status generate(const wish *wish, vsc_error *error)
 
 int vsc_verb_generate(int argc, char **argv)
 {
-  wish wish = {.lv = vsc_lv_default(), .block = vsc_block_default(), .endo_angle = 60, .epi_angle = -60};
+  wish wish = {
+      .lv = vsc_lv_default(), .block = vsc_block_default(), .endo_angle = 60, .epi_angle = -60};
   optind = 0;
   int option, index = 0;
   while ((option = getopt_long(argc, argv, "o:h", options, &index)) != -1) {
@@ -228,7 +250,8 @@ int vsc_verb_generate(int argc, char **argv)
     }
   }
   if (optind + 1 != argc) {
-    fprintf(stderr, "viscera generate: say one shape: lv, map or block, see `viscera generate --help`\n");
+    fprintf(stderr,
+            "viscera generate: say one shape: lv, map or block, see `viscera generate --help`\n");
     return VSC_INPUT;
   }
   wish.shape = argv[optind];

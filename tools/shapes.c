@@ -12,15 +12,17 @@
 
 // Corners of a brick: 0 to 3 round the bottom, 4 to 7 above them. The corners 0 2 5 7 hold the
 // middle tet; in a mirrored brick 1 3 4 6 do.
-static const int five[5][4] = {{0, 2, 7, 5}, {1, 0, 5, 2}, {3, 0, 2, 7}, {4, 0, 7, 5}, {6, 2, 5, 7}};
+static const int five[5][4] = {
+    {0, 2, 7, 5}, {1, 0, 5, 2}, {3, 0, 2, 7}, {4, 0, 7, 5}, {6, 2, 5, 7}};
 static const int five_mirrored[5][4] = {
     {1, 3, 4, 6}, {0, 1, 3, 4}, {2, 1, 6, 3}, {5, 1, 4, 6}, {7, 3, 6, 4}};
 static const int six[6][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6},
                               {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
 
-static void cut_brick(vsc_mesh *mesh, size_t brick, const uint32_t corner[8], int tets, bool mirrored)
+static void cut_brick(vsc_mesh *mesh, size_t brick, const uint32_t corner[8], int tets,
+                      bool mirrored)
 {
-  const int (*pattern)[4] = tets == 6 ? six : mirrored ? five_mirrored : five;
+  const int(*pattern)[4] = tets == 6 ? six : mirrored ? five_mirrored : five;
   for (int t = 0; t < tets; t++) {
     uint32_t *tet = &mesh->tets[4 * (brick * (size_t)tets + (size_t)t)];
     for (int i = 0; i < 4; i++) tet[i] = corner[pattern[t][i]];
@@ -52,28 +54,38 @@ static void set_sources(vsc_mesh *mesh)
 
 vsc_lv_shape vsc_lv_default(void)
 {
-  return (vsc_lv_shape){.endo_radius = 26, .endo_length = 66, .epi_radius = 35.5, .epi_length = 73,
-                        .base = 20, .around = 32, .along = 14, .layers = 3};
+  return (vsc_lv_shape){.endo_radius = 26,
+                        .endo_length = 66,
+                        .epi_radius = 35.5,
+                        .epi_length = 73,
+                        .base = 20,
+                        .around = 32,
+                        .along = 14,
+                        .layers = 3};
 }
 
 static vsc_status check_lv(const vsc_lv_shape *lv, vsc_error *error)
 {
-  const bool sizes = lv->endo_radius > 0 && lv->endo_length > 0 && lv->epi_radius > lv->endo_radius &&
-                     lv->epi_length > lv->endo_length && isfinite(lv->epi_radius) &&
-                     isfinite(lv->epi_length);
+  const bool sizes = lv->endo_radius > 0 && lv->endo_length > 0 &&
+                     lv->epi_radius > lv->endo_radius && lv->epi_length > lv->endo_length &&
+                     isfinite(lv->epi_radius) && isfinite(lv->epi_length);
   if (!sizes)
-    return vsc_fail(error, VSC_INPUT, "ventricle: endocardial radius %g and length %g mm must be above 0 and "
-                    "below the epicardial ones, %g and %g mm", lv->endo_radius, lv->endo_length,
-                    lv->epi_radius, lv->epi_length);
+    return vsc_fail(error, VSC_INPUT,
+                    "ventricle: endocardial radius %g and length %g mm must be above 0 and "
+                    "below the epicardial ones, %g and %g mm",
+                    lv->endo_radius, lv->endo_length, lv->epi_radius, lv->epi_length);
   if (!(fabs(lv->base) < 0.95 * lv->endo_length))
-    return vsc_fail(error, VSC_INPUT, "ventricle: the base plane at z = %g mm must cut the endocardium, "
-                    "within 95 %% of its half length %g mm", lv->base, lv->endo_length);
+    return vsc_fail(error, VSC_INPUT,
+                    "ventricle: the base plane at z = %g mm must cut the endocardium, "
+                    "within 95 %% of its half length %g mm",
+                    lv->base, lv->endo_length);
   const size_t most = 4096;
   if (lv->around < 4 || lv->around % 4 != 0 || lv->around > most || lv->along < 1 ||
       lv->along > most || lv->layers < 1 || lv->layers > 256)
-    return vsc_fail(error, VSC_INPUT, "ventricle: %zu bricks around, %zu along, %zu layers: around must be a "
-                    "multiple of 4, all at least 1, at most 4096, 4096 and 256", lv->around, lv->along,
-                    lv->layers);
+    return vsc_fail(error, VSC_INPUT,
+                    "ventricle: %zu bricks around, %zu along, %zu layers: around must be a "
+                    "multiple of 4, all at least 1, at most 4096, 4096 and 256",
+                    lv->around, lv->along, lv->layers);
   return VSC_OK;
 }
 
@@ -99,7 +111,8 @@ double vsc_lv_depth(const vsc_lv_shape *lv, const double point[3])
   double low = -1, high = 3;
   for (int i = 0; i < 60; i++) {
     const double t = (low + high) / 2, rs = radius(lv, t), rl = length(lv, t);
-    const bool outside = rs <= 0 || rl <= 0 || square / (rs * rs) + point[2] * point[2] / (rl * rl) > 1;
+    const bool outside =
+        rs <= 0 || rl <= 0 || square / (rs * rs) + point[2] * point[2] / (rl * rl) > 1;
     if (outside)
       low = t;
     else
@@ -122,10 +135,10 @@ void vsc_lv_frame(const vsc_lv_shape *lv, const double point[3], double endo_ang
 enum { MERIDIAN = 1024 };
 typedef struct lv_grid {
   const vsc_lv_shape *lv;
-  size_t side;                  // bricks along one edge of the patch
-  size_t per_layer;             // nodes
-  double meridian[MERIDIAN + 1];  // arc length from the apex to u = i / MERIDIAN of the base's u, as
-                                // a part of the whole
+  size_t side;                    // bricks along one edge of the patch
+  size_t per_layer;               // nodes
+  double meridian[MERIDIAN + 1];  // arc length from the apex to u = i / MERIDIAN of the base's u,
+                                  // as a part of the whole
 } lv_grid;
 
 static double base_angle(const vsc_lv_shape *lv, double t)
@@ -160,10 +173,22 @@ static void patch_edge(const lv_grid *grid, size_t k, size_t *i, size_t *j)
 {
   const size_t n = grid->side, along = k % n;
   switch (k / n % 4) {
-    case 0: *i = n; *j = along; break;
-    case 1: *i = n - along; *j = n; break;
-    case 2: *i = 0; *j = n - along; break;
-    default: *i = along; *j = 0; break;
+    case 0:
+      *i = n;
+      *j = along;
+      break;
+    case 1:
+      *i = n - along;
+      *j = n;
+      break;
+    case 2:
+      *i = 0;
+      *j = n - along;
+      break;
+    default:
+      *i = along;
+      *j = 0;
+      break;
   }
 }
 
@@ -180,14 +205,15 @@ static uint32_t ring_node(const lv_grid *grid, size_t k, size_t row)
 static void patch_place(const lv_grid *grid, size_t i, size_t j, double *part, double *azimuth)
 {
   const double n = (double)grid->side;
-  const double x = tan((2 * (double)i / n - 1) * M_PI / 4), y = tan((2 * (double)j / n - 1) * M_PI / 4);
+  const double x = tan((2 * (double)i / n - 1) * M_PI / 4),
+               y = tan((2 * (double)j / n - 1) * M_PI / 4);
   const double edge = n / 2 / (n / 2 + (double)grid->lv->along);
   *part = edge * atan(hypot(x, y)) / (M_PI / 4);
   *azimuth = atan2(y, x);
 }
 
-static void place_column(const lv_grid *grid, vsc_mesh *mesh, size_t node, double part, double azimuth,
-                         bool base)
+static void place_column(const lv_grid *grid, vsc_mesh *mesh, size_t node, double part,
+                         double azimuth, bool base)
 {
   const vsc_lv_shape *lv = grid->lv;
   const double angle = base ? 1 : part_of_angle(grid, part);
@@ -293,8 +319,10 @@ vsc_status vsc_lv_mesh(const vsc_lv_shape *lv, vsc_mesh **result, vsc_error *err
   }
   if (!all_right_handed(mesh)) {
     vsc_mesh_free(mesh);
-    return vsc_fail(error, VSC_INPUT, "ventricle: %zu bricks around and %zu along are too few for its shape: "
-                    "tets would be turned inside out, use more", lv->around, lv->along);
+    return vsc_fail(error, VSC_INPUT,
+                    "ventricle: %zu bricks around and %zu along are too few for its shape: "
+                    "tets would be turned inside out, use more",
+                    lv->around, lv->along);
   }
   *result = mesh;
   return VSC_OK;
@@ -321,9 +349,10 @@ vsc_status vsc_lv_map(const vsc_lv_shape *lv, double endo_angle, double epi_angl
   const vsc_status status = check_lv(lv, error);
   if (status != VSC_OK) return status;
   if (!(spacing > lv->epi_radius / 500 && spacing < lv->epi_radius))
-    return vsc_fail(error, VSC_INPUT, "map: a voxel of %g mm does not suit a ventricle of %g mm radius, use "
-                    "about a quarter of the wall, %.2g mm", spacing, lv->epi_radius,
-                    (lv->epi_radius - lv->endo_radius) / 4);
+    return vsc_fail(error, VSC_INPUT,
+                    "map: a voxel of %g mm does not suit a ventricle of %g mm radius, use "
+                    "about a quarter of the wall, %.2g mm",
+                    spacing, lv->epi_radius, (lv->epi_radius - lv->endo_radius) / 4);
   const size_t across = 2 * (size_t)ceil(lv->epi_radius / spacing) + 3;
   const size_t high = (size_t)ceil((lv->epi_length + lv->base) / spacing) + 3;
   const size_t size[3] = {across, across, high};
@@ -355,14 +384,18 @@ static vsc_status check_block(const vsc_block_shape *block, vsc_error *error)
 {
   for (int a = 0; a < 3; a++) {
     if (block->cells[a] < 1 || block->cells[a] > 1000)
-      return vsc_fail(error, VSC_INPUT, "block: %zu bricks along %c, must be 1 to 1000", block->cells[a], 'x' + a);
+      return vsc_fail(error, VSC_INPUT, "block: %zu bricks along %c, must be 1 to 1000",
+                      block->cells[a], 'x' + a);
     if (!(block->size[a] > 0 && isfinite(block->size[a])))
-      return vsc_fail(error, VSC_INPUT, "block: size %g mm along %c, must be above 0", block->size[a], 'x' + a);
+      return vsc_fail(error, VSC_INPUT, "block: size %g mm along %c, must be above 0",
+                      block->size[a], 'x' + a);
   }
   if (block->tets_per_cell != 5 && block->tets_per_cell != 6)
-    return vsc_fail(error, VSC_INPUT, "block: %d tets per brick, must be 5 or 6", block->tets_per_cell);
+    return vsc_fail(error, VSC_INPUT, "block: %d tets per brick, must be 5 or 6",
+                    block->tets_per_cell);
   if (!(block->jitter >= 0 && block->jitter <= 0.3))
-    return vsc_fail(error, VSC_INPUT, "block: jitter %g, must be 0 to 0.3 of a brick", block->jitter);
+    return vsc_fail(error, VSC_INPUT, "block: jitter %g, must be 0 to 0.3 of a brick",
+                    block->jitter);
   return VSC_OK;
 }
 
@@ -391,7 +424,8 @@ static void place_block_node(const vsc_block_shape *block, vsc_mesh *mesh, size_
     const double cells = (double)block->cells[a];
     double part = (double)index[a] / cells;
     if (inner)
-      part += block->jitter * scatter(block->seed * UINT64_C(0x100000001B3) + 3 * node + (size_t)a) / cells;
+      part += block->jitter *
+              scatter(block->seed * UINT64_C(0x100000001B3) + 3 * node + (size_t)a) / cells;
     mesh->nodes[3 * node + (size_t)a] = block->size[a] * part;
   }
 }
@@ -405,8 +439,9 @@ static void cut_block(const vsc_block_shape *block, vsc_mesh *mesh)
     for (size_t j = 0; j < block->cells[1]; j++)
       for (size_t i = 0; i < block->cells[0]; i++) {
         const uint32_t c = (uint32_t)i + along_y * (uint32_t)j + along_z * (uint32_t)k;
-        const uint32_t corner[8] = {c, c + 1, c + 1 + along_y, c + along_y, c + along_z,
-                                    c + 1 + along_z, c + 1 + along_y + along_z, c + along_y + along_z};
+        const uint32_t corner[8] = {
+            c,           c + 1,           c + 1 + along_y,           c + along_y,
+            c + along_z, c + 1 + along_z, c + 1 + along_y + along_z, c + along_y + along_z};
         cut_brick(mesh, brick++, corner, block->tets_per_cell, (i + j + k) % 2 == 1);
       }
 }
@@ -417,7 +452,8 @@ vsc_status vsc_block_mesh(const vsc_block_shape *block, vsc_mesh **result, vsc_e
   if (status != VSC_OK) return status;
   const size_t *cells = block->cells;
   const size_t nodes = (cells[0] + 1) * (cells[1] + 1) * (cells[2] + 1);
-  vsc_mesh *mesh = vsc_mesh_create(nodes, cells[0] * cells[1] * cells[2] * (size_t)block->tets_per_cell, 0);
+  vsc_mesh *mesh =
+      vsc_mesh_create(nodes, cells[0] * cells[1] * cells[2] * (size_t)block->tets_per_cell, 0);
   if (mesh == NULL) return vsc_fail_memory(error, "the block's mesh");
   static const char *const names[6] = {"x0", "x1", "y0", "y1", "z0", "z1"};
   bool complete = true;
@@ -432,7 +468,8 @@ vsc_status vsc_block_mesh(const vsc_block_shape *block, vsc_mesh **result, vsc_e
   set_sources(mesh);
   if (!all_right_handed(mesh)) {
     vsc_mesh_free(mesh);
-    return vsc_fail(error, VSC_INPUT, "block: a jitter of %g turns tets inside out, use less", block->jitter);
+    return vsc_fail(error, VSC_INPUT, "block: a jitter of %g turns tets inside out, use less",
+                    block->jitter);
   }
   *result = mesh;
   return VSC_OK;

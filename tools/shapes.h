@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Meshes and maps made from formulas: a left ventricle, a block, and the ventricle's angle map. They
-// return what a file would have held; `viscera generate` writes it, tests use it directly.
+// Meshes and maps made from formulas: a left ventricle, a block, and the ventricle's angle map.
+// They return what a file would have held; `viscera generate` writes it, tests use it directly.
 #ifndef VSC_TOOLS_SHAPES_H
 #define VSC_TOOLS_SHAPES_H
 
@@ -29,8 +29,8 @@ vsc_lv_shape vsc_lv_default(void);
 // pi rs^2 (b + 2 rl/3 - b^3 / (3 rl^2)).
 double vsc_lv_volume(const vsc_lv_shape *shape, double depth);
 
-// Depth of a point: the t whose ellipsoid holds it, between -1 and 3 (limited to these), by bisection
-// of (x^2 + y^2) / rs(t)^2 + z^2 / rl(t)^2 = 1.
+// Depth of a point: the t whose ellipsoid holds it, between -1 and 3 (limited to these), by
+// bisection of (x^2 + y^2) / rs(t)^2 + z^2 / rl(t)^2 = 1.
 double vsc_lv_depth(const vsc_lv_shape *shape, const double point[3]);
 
 // The frame (rows f, s, n) of the transmural helix at a point, by the convention of fibers/helix.h:
@@ -45,18 +45,18 @@ void vsc_lv_frame(const vsc_lv_shape *shape, const double point[3], double endo_
 vsc_status vsc_lv_mesh(const vsc_lv_shape *shape, vsc_mesh **mesh, vsc_error *error);
 
 // The angle map of the helix on a grid of cubic voxels round the wall, with a margin of one voxel:
-// point arrays `azimuth` (degrees in [0, 180)), `elevation` (degrees in [-90, 90]) and `tissue` (1 for
-// voxel centres in the wall; elsewhere all three are 0). Angles in radians, spacing in mm. The
+// point arrays `azimuth` (degrees in [0, 180)), `elevation` (degrees in [-90, 90]) and `tissue` (1
+// for voxel centres in the wall; elsewhere all three are 0). Angles in radians, spacing in mm. The
 // caller owns *image.
 vsc_status vsc_lv_map(const vsc_lv_shape *shape, double endo_angle, double epi_angle,
                       double spacing, vsc_image **image, vsc_error *error);
 
 // A box from the origin to `size`, cut into bricks.
 typedef struct vsc_block_shape {
-  size_t cells[3];     // bricks along x, y, z
-  double size[3];      // mm
-  int tets_per_cell;   // 5 (neighbours mirrored) or 6 (round the brick's main diagonal)
-  double jitter;       // inner nodes are moved by up to this part of a brick along each axis, 0 to 0.3
+  size_t cells[3];    // bricks along x, y, z
+  double size[3];     // mm
+  int tets_per_cell;  // 5 (neighbours mirrored) or 6 (round the brick's main diagonal)
+  double jitter;  // inner nodes are moved by up to this part of a brick along each axis, 0 to 0.3
   unsigned long seed;  // of the jitter
 } vsc_block_shape;
 
