@@ -63,7 +63,8 @@ static void add_active(const observation *o, const vsc_material *material, size_
   const double tension = vsc_active_tension(o->model, material, slot, o->state->time, stretch, &nominal);
   part->tension_high = fmax(part->tension_high, tension);
   part->tension_mean += V * tension;
-  part->active_work += V * 0.5 * (nominal + ledger->tension[slot]) * (stretch - ledger->stretch[slot]);
+  // a tension that shortens the fibre does work: - T d lambda
+  part->active_work -= V * 0.5 * (nominal + ledger->tension[slot]) * (stretch - ledger->stretch[slot]);
   ledger->stretch[slot] = stretch;
   ledger->tension[slot] = nominal;
 }

@@ -11,6 +11,8 @@
 #include "run/session.h"
 #include "solve/explicit.h"
 
+#define LONGEST_LOOK 1.0  // ms between two looks of the energy ledger
+
 void vsc_session_path(const vsc_session *session, const char *what, char path[VSC_PATH])
 {
   const char *name = what[0] == '.' ? session->name : "";
@@ -110,12 +112,17 @@ static void go_back_to_good(vsc_session *session)
   memcpy(state->a, session->good + 2 + 2 * count, count * sizeof(double));
 }
 
-static vsc_status write_row(vsc_session *session, vsc_error *error)
+static vsc_status observe(vsc_session *session, vsc_error *error)
 {
-  const vsc_status status = vsc_watch_row(session->problem, session->state, session->watch, error);
+  const vsc_status status = vsc_watch_observe(session->problem, session->state, session->watch, error);
   session->most_inverted = fmax(session->most_inverted, session->watch->totals.inverted);
   if (status == VSC_OK) keep_good(session);
   return status;
+}
+
+static vsc_status write_row(vsc_session *session, vsc_error *error)
+{
+  return vsc_watch_row(session->problem, session->state, session->watch, error);
 }
 
 static vsc_status start(vsc_session *session, vsc_error *error)
@@ -133,6 +140,7 @@ static vsc_status start(vsc_session *session, vsc_error *error)
   status = vsc_start(problem->model, session->state, error);
   if (status == VSC_OK) status = open_files(session, error);
   if (status == VSC_OK) status = open_watch(session, -1, error);
+  if (status == VSC_OK) status = observe(session, error);
   if (status == VSC_OK) status = write_row(session, error);
   if (status == VSC_OK) status = vsc_session_write_frame(session, error);
   return status;
@@ -158,11 +166,14 @@ static vsc_status advance(vsc_session *session, double stop, vsc_error *error)
   const vsc_model *model = session->problem->model;
   vsc_state *state = session->state;
   vsc_status status = VSC_OK;
+  // the ledger wants a look at least every LONGEST_LOOK, however rare the rows are
+  const double look = output->signal_interval / ceil(output->signal_interval / LONGEST_LOOK);
   while (state->time < stop && status == VSC_OK) {
-    double next = next_event(state->time, output->signal_interval, stop);
+    double next = next_event(state->time, look, stop);
     next = fmin(next, next_event(state->time, output->frame_interval, stop));
     next = fmin(next, next_event(state->time, output->checkpoint_interval, stop));
     status = vsc_advance(model, state, next, error);
+    if (status == VSC_OK) status = observe(session, error);
     if (status == VSC_OK && is_event(next, output->signal_interval, model->end_time))
       status = write_row(session, error);
     if (status == VSC_OK && is_event(next, output->frame_interval, model->end_time))

@@ -30,8 +30,13 @@ typedef struct vsc_watch {
 vsc_status vsc_watch_open(const vsc_problem *problem, const char *file, double keep_until, vsc_watch **watch,
                           vsc_error *error);
 
-// Observes the state and appends a row. VSC_NUMERICAL when the energy balance has jumped by more than 5 % of the
-// largest energy seen: the simulation is coming apart although all numbers are finite.
+// Observes the state and carries the energy ledger on. VSC_NUMERICAL when the energy balance has jumped by
+// more than 5 % of the largest energy seen (at least that of 3 % strain everywhere): the simulation is
+// coming apart although all numbers are finite.
+vsc_status vsc_watch_observe(const vsc_problem *problem, vsc_state *state, vsc_watch *watch,
+                             vsc_error *error);
+
+// Appends what was observed last as a row.
 vsc_status vsc_watch_row(const vsc_problem *problem, vsc_state *state, vsc_watch *watch, vsc_error *error);
 
 // Renews what the next row needs from a state that was read from a checkpoint, without writing.
