@@ -102,7 +102,8 @@ static int make_files(void **state)
   vsc_image_free(image);
   double positions[15] = {0};
   const vsc_block block = {"position", "mm", 5, 3, positions};
-  assert_int_equal(vsc_checkpoint_write(in_folder("end.h5"), 7, 1, &block, NULL), VSC_OK);
+  assert_int_equal(vsc_checkpoint_write(in_folder("end.h5"), UINT64_MAX - 1, 1, &block, NULL),
+                   VSC_OK);
   FILE *garbage = fopen(in_folder("garbage.h5"), "w");
   assert_non_null(garbage);
   fputs("no HDF5", garbage);
@@ -178,6 +179,7 @@ static void test_info(void **state)
   assert_int_equal(run("info end.h5"), 0);
   assert_holds(said, "viscera checkpoint");
   assert_holds(said, "5 x 3 [mm]");
+  assert_holds(said, "18446744073709551614");
 }
 
 static void test_info_says_what_is_wrong(void **state)

@@ -3,7 +3,7 @@
 
 #include <errno.h>
 #include <hdf5.h>
-#include <stdint.h>
+#include <inttypes.h>
 #include <string.h>
 
 enum { TEXT = 256 };
@@ -23,10 +23,14 @@ static void attribute_text(hid_t attribute, char text[TEXT])
     } else if (class == H5T_STRING && H5Tget_size(type) < TEXT) {
       if (H5Aread(attribute, type, text) < 0) text[0] = '\0';
       text[H5Tget_size(type)] = '\0';
+    } else if (class == H5T_INTEGER && H5Tget_sign(type) == H5T_SGN_NONE) {
+      uint64_t value = 0;
+      if (H5Aread(attribute, H5T_NATIVE_UINT64, &value) >= 0)
+        snprintf(text, TEXT, "%" PRIu64, value);
     } else if (class == H5T_INTEGER) {
       int64_t value = 0;
       if (H5Aread(attribute, H5T_NATIVE_INT64, &value) >= 0)
-        snprintf(text, TEXT, "%lld", (long long)value);
+        snprintf(text, TEXT, "%" PRId64, value);
     } else if (class == H5T_FLOAT) {
       double value = 0;
       if (H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) >= 0) snprintf(text, TEXT, "%.9g", value);
