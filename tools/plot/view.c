@@ -148,7 +148,7 @@ static void shade(const vsc_vertex *vertex, int kind, const void *context, float
     for (int k = 0; k < 3; k++) normal[k] = -normal[k];
   const double lit = (1 + vsc_dot(normal, light)) / 2;  // the shaded side is no plain black
   double bright = 0.40 + 0.66 * lit * lit,
-         shine = 0.10 * pow(fmax(0, vsc_dot(normal, halfway)), 24);
+         shine = 0.06 * pow(fmax(0, vsc_dot(normal, halfway)), 24);
   if (kind == VSC_KIND_CUT) {
     bright = 1.0;
     shine = 0;
