@@ -82,6 +82,8 @@ static void a_good_definition_passes(void **state)
   if (vsc_definition_check(&d, &error) != VSC_OK) fail_msg("%s", error.text);
   vsc_copy_name(d.pressures[0].surface, "boundary");
   vsc_copy_name(d.sets[1].array, "boundary");
+  d.materials[1].region_count = 1;
+  d.materials[1].regions[0] = 4;
   assert_int_equal(vsc_definition_check(&d, &error), VSC_OK);
   vsc_definition_free(&d);
   assert_int_equal(d.material_count, 0);
