@@ -206,7 +206,7 @@ static void files_that_are_no_scenes(void **state)
   assert_refused(NULL, 0, " ", "more than 8 MB", "expected");
   memset(large, '[', 1 << 16);
   scratch_bytes("scene.yaml", large, 1 << 16);
-  assert_refused(NULL, 0, "", "", "expected");
+  assert_refused(NULL, 0, "1:", "33 deep", "expected");
   free(large);
 }
 

@@ -8,6 +8,8 @@
 
 #include "base/mem.h"
 
+enum { DEEPEST = 32 };  // lists and groups inside one another
+
 struct vsc_locator {
   yaml_document_t document;
 };
@@ -64,18 +66,47 @@ static vsc_status check_nodes(yaml_document_t *document, const char *file, vsc_e
   return VSC_OK;
 }
 
-static vsc_status check_single(yaml_parser_t *parser, const char *file, const char *text,
-                               size_t size, vsc_error *error)
+static vsc_status check_event(const yaml_event_t *event, const char *file, int *documents,
+                              int *depth, vsc_error *error)
 {
-  yaml_document_t next;
-  if (!yaml_parser_load(parser, &next)) return fail_syntax(parser, file, text, size, error);
-  const bool more = yaml_document_get_root_node(&next) != NULL;
-  const size_t line = next.start_mark.line;
-  yaml_document_delete(&next);
-  if (!more) return VSC_OK;
+  const size_t line = event->start_mark.line + 1;
+  if (event->type == YAML_DOCUMENT_START_EVENT && ++*documents > 1)
+    return vsc_fail(error, VSC_INPUT,
+                    "%s:%zu: a second YAML document begins here; a scene is one document", file,
+                    line);
+  const bool opens =
+      event->type == YAML_SEQUENCE_START_EVENT || event->type == YAML_MAPPING_START_EVENT;
+  const bool closes =
+      event->type == YAML_SEQUENCE_END_EVENT || event->type == YAML_MAPPING_END_EVENT;
+  *depth += opens - closes;
+  if (*depth <= DEEPEST) return VSC_OK;
   return vsc_fail(error, VSC_INPUT,
-                  "%s:%zu: a second YAML document begins here; a scene is one document", file,
-                  line + 1);
+                  "%s:%zu: lists and groups inside one another, %d deep; expected a scene, see "
+                  "viscera schema",
+                  file, line, *depth);
+}
+
+// Grammar, number of documents, depth: before the document is loaded, for libyaml takes hours to
+// load what is nested a million deep.
+static vsc_status check_grammar(const char *file, const char *text, size_t size, vsc_error *error)
+{
+  yaml_parser_t parser;
+  if (!yaml_parser_initialize(&parser)) return vsc_fail_memory(error, "reading the scene");
+  yaml_parser_set_input_string(&parser, (const unsigned char *)text, size);
+  vsc_status status = VSC_OK;
+  int documents = 0, depth = 0;
+  for (bool more = true; more && status == VSC_OK;) {
+    yaml_event_t event;
+    if (!yaml_parser_parse(&parser, &event)) {
+      status = fail_syntax(&parser, file, text, size, error);
+      break;
+    }
+    more = event.type != YAML_STREAM_END_EVENT;
+    status = check_event(&event, file, &documents, &depth, error);
+    yaml_event_delete(&event);
+  }
+  yaml_parser_delete(&parser);
+  return status;
 }
 
 vsc_status vsc_locator_open(const char *file, const char *text, size_t size, vsc_locator **locator,
@@ -83,18 +114,18 @@ vsc_status vsc_locator_open(const char *file, const char *text, size_t size, vsc
 {
   yaml_parser_t parser;
   vsc_locator *opened;
+  vsc_status status = check_grammar(file, text, size, error);
+  if (status != VSC_OK) return status;
   if (!VSC_NEW(opened, 1) || !yaml_parser_initialize(&parser)) {
     vsc_free(opened);
     return vsc_fail_memory(error, "reading the scene");
   }
   yaml_parser_set_input_string(&parser, (const unsigned char *)text, size);
-  vsc_status status;
   if (!yaml_parser_load(&parser, &opened->document)) {
     status = fail_syntax(&parser, file, text, size, error);
     vsc_free(opened);
   } else {
     status = check_nodes(&opened->document, file, error);
-    if (status == VSC_OK) status = check_single(&parser, file, text, size, error);
     if (status == VSC_OK)
       *locator = opened;
     else

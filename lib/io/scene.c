@@ -74,16 +74,24 @@ vsc_status vsc_reading_locate(const vsc_reading *reading, const vsc_error *found
   return fail_at(reading, key, colon + 2);
 }
 
-// The whole file in memory, *text owned by the caller.
+// Reads until the end of the stream or one byte more than a scene may have.
+static bool read_stream(FILE *stream, char **text, size_t *size)
+{
+  for (size_t room = 1 << 14;; room *= 2) {
+    if (!vsc_grow((void **)text, *size, room, 1)) return false;
+    *size += fread(*text + *size, 1, room - *size, stream);
+    if (*size < room || *size > LARGEST_SCENE) return true;
+  }
+}
+
+// The whole file in memory, *text (NULL before) owned by the caller.
 static vsc_status read_whole_file(const char *file, char **text, size_t *size, vsc_error *error)
 {
   FILE *stream = fopen(file, "rb");
   if (stream == NULL)
     return vsc_fail(error, VSC_INPUT, "%s: %s; expected a scene file", file, strerror(errno));
   vsc_status status = VSC_OK;
-  *text = vsc_alloc(LARGEST_SCENE + 1, 1);
-  *size = *text != NULL ? fread(*text, 1, LARGEST_SCENE + 1, stream) : 0;
-  if (*text == NULL)
+  if (!read_stream(stream, text, size))
     status = vsc_fail_memory(error, "the scene file");
   else if (ferror(stream))
     status = vsc_fail(error, VSC_INPUT, "%s: %s; expected a scene file", file, strerror(errno));
