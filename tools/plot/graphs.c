@@ -19,7 +19,7 @@ static const PLINT colours[FIRST_LINE + LINES][3] = {
     {33, 102, 172},  {27, 120, 55}, {118, 42, 131},  {191, 129, 45},  {80, 80, 80}};
 
 // The edges of a graph, as shares of the width.
-static const double LEFT = 0.085, RIGHT = 0.985;
+static const double LEFT = 0.085, RIGHT = 0.97;
 static const double HEADING = 0.045;  // above a graph, share of the height
 
 typedef struct line {
@@ -218,7 +218,7 @@ vsc_status vsc_graphs_draw(cairo_t *cairo, double width, double height, const vs
   if (status == VSC_OK) status = make_tension(signals, &graphs[2], error);
   int present = 0, drawn = 0, before = 0;
   for (int g = 0; g < GRAPHS; g++) present += graphs[g].count > 0;
-  const double below = 0.06, share = (1 - below) / present;  // of the height
+  const double below = 0.06, share = (1 - below) / (present < 2 ? 2 : present);  // of the height
   if (status == VSC_OK && present > 0) {
     cairo_save(cairo);  // PLplot turns it upside down
     open_plplot(cairo, width, height);
