@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What `cmake --install` puts where: programs, library, headers as they lie in lib/ and fibers/, data,
-# a CMake package and a pkg-config file. Everything may be moved together to another prefix.
+# What `cmake --install` puts where: programs, library, headers as they lie in lib/ and fibers/,
+# data, a CMake package and a pkg-config file. Everything may be moved together to another prefix.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS viscera EXPORT viscera-targets)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Breaks each rule of check_layers.cmake in a small tree of its own and expects the fault to be found:
-# cmake -DCHECK=<check_layers.cmake> -DWORK=<folder> -P tests/test_layers.cmake
+# Breaks each rule of check_layers.cmake in a small tree of its own and expects the fault to be
+# found: cmake -DCHECK=<check_layers.cmake> -DWORK=<folder> -P tests/test_layers.cmake
 cmake_minimum_required(VERSION 3.25)
 set(licence "// SPDX-License-Identifier: GPL-3.0-or-later\n")
 string(REPEAT "int x;\n" 500 many)
@@ -8,7 +8,8 @@ string(REPEAT "int x;\n" 500 many)
 # expect(<text of the fault; empty: none> <file> <content>)
 function(expect text file content)
   file(REMOVE_RECURSE ${WORK})
-  file(WRITE ${WORK}/lib/mesh/good.c "${licence}#include \"mesh/good.h\"\n#include <math.h>\n#include \"base/mem.h\"\n")
+  file(WRITE ${WORK}/lib/mesh/good.c
+       "${licence}#include \"mesh/good.h\"\n#include <math.h>\n#include \"base/mem.h\"\n")
   file(WRITE ${WORK}/${file} "${content}")
   execute_process(COMMAND ${CMAKE_COMMAND} -DROOT=${WORK} -P ${CHECK} RESULT_VARIABLE failed
                   OUTPUT_QUIET ERROR_VARIABLE said)
@@ -21,7 +22,8 @@ function(expect text file content)
 endfunction()
 
 expect("" lib/io/vtk.cc "${licence}#include <vtkCellArray.h>\n#include \"mesh/mesh.h\"\n")
-expect("" tools/run.c "${licence}#include \"viscera.h\"\n#include \"fibers/sample.h\"\n#include \"io/vtk.h\"\n")
+expect("" tools/run.c
+       "${licence}#include \"viscera.h\"\n#include \"fibers/sample.h\"\n#include \"io/vtk.h\"\n")
 expect("" tests/test_x.c "${licence}#include \"close.h\"\n#include <hdf5.h>\n")
 expect("downwards only" lib/base/up.c "${licence}#include \"mesh/mesh.h\"\n")
 expect("downwards only" lib/io/up.h "${licence}  #  include \"fibers/sample.h\"\n")
