@@ -118,6 +118,7 @@ SPOIL(falling, d->materials[0].active.curve.times[2] = 100)
 SPOIL(table_nan, d->materials[0].active.curve.values[1] = NAN)
 SPOIL(duration, d->pressures[0].curve.duration = 0)
 SPOIL(period, d->pressures[0].curve.period = 200)
+SPOIL(cut_off, d->pressures[0].curve.start = 600; d->pressures[0].curve.period = 800)
 SPOIL(negative_period, d->pressures[0].curve.period = -1)
 SPOIL(rise, d->pressures[0].curve = vsc_default_curve(VSC_CURVE_DOUBLE_HILL);
       d->pressures[0].curve.rise = 0)
@@ -171,6 +172,7 @@ static void every_rule_names_its_key(void **state)
       {table_nan, "materials[0].active.curve.values[1]: ", "finite"},
       {duration, "pressures[0].curve.duration: ", "above zero"},
       {period, "pressures[0].curve.period: 200 ms: ", "longer period"},
+      {cut_off, "pressures[0].curve.period: 800 ms: ", "after the start"},
       {negative_period, "pressures[0].curve.period: ", "zero or more"},
       {rise, "pressures[0].curve.rise: ", "above zero"},
       {fall, "pressures[0].curve.fall: -20 ms: ", "above zero"},

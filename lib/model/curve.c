@@ -19,9 +19,8 @@ static double analytic_value(const vsc_curve_def *d, double time)
       return t > 0 && t < d->duration ? sin(M_PI * t / d->duration) : 0;
     case VSC_CURVE_DOUBLE_HILL: {
       if (t <= 0) return 0;
-      const double rise = pow(t / d->rise, d->rise_power);
-      const double fall = pow(t / d->fall, d->fall_power);
-      return rise / (1 + rise) / (1 + fall);
+      // g1/(1 + g1) as 1/(1 + 1/g1): powers may overflow
+      return 1 / (1 + pow(t / d->rise, -d->rise_power)) / (1 + pow(t / d->fall, d->fall_power));
     }
     case VSC_CURVE_TANH_PAIR:
       return 0.25 * (1 + tanh(t / d->rise)) * (1 - tanh((t - d->duration) / d->fall));
@@ -30,6 +29,21 @@ static double analytic_value(const vsc_curve_def *d, double time)
       break;
   }
   return 1;
+}
+
+// The peak of a double Hill curve wherever the table ends: the slope of its logarithm over log t,
+// p1/(1 + g1) - p2 g2/(1 + g2), falls from p1 to -p2; its zero by bisection.
+static double hill_peak(const vsc_curve_def *d)
+{
+  double low = log(fmin(d->rise, d->fall)) - 100, high = log(fmax(d->rise, d->fall)) + 100;
+  for (int k = 0; k < 100; k++) {
+    const double middle = 0.5 * (low + high), t = exp(middle);
+    const double slope = d->rise_power / (1 + pow(t / d->rise, d->rise_power)) -
+                         d->fall_power / (1 + pow(t / d->fall, -d->fall_power));
+    if (slope > 0) low = middle;
+    else high = middle;
+  }
+  return analytic_value(d, d->start + exp(low));
 }
 
 // Fills the table from given points by a monotone spline (Steffen 1990).
@@ -62,11 +76,9 @@ vsc_status vsc_curve_build(const vsc_curve_def *d, double end_time, vsc_curve *c
   curve->intervals = d->kind == VSC_CURVE_CONSTANT ? 1 : INTERVALS;
   if (!VSC_NEW(curve->values, curve->intervals + 1)) return vsc_fail_memory(error, "a curve");
   if (d->kind == VSC_CURVE_TABLE) return tabulate_points(d, curve, error);
+  const double peak = d->kind == VSC_CURVE_DOUBLE_HILL ? hill_peak(d) : 1;
   for (size_t k = 0; k <= curve->intervals; k++)
-    curve->values[k] = analytic_value(d, curve->span * (double)k / (double)curve->intervals);
-  const double peak = vsc_curve_peak(curve);
-  if (d->kind == VSC_CURVE_DOUBLE_HILL && peak > 0)
-    for (size_t k = 0; k <= curve->intervals; k++) curve->values[k] /= peak;
+    curve->values[k] = analytic_value(d, curve->span * (double)k / (double)curve->intervals) / peak;
   return VSC_OK;
 }
 

@@ -79,8 +79,9 @@ static void check_curve(checker *c, const vsc_curve_def *curve)
     need_positive(c, "curve.fall_power", curve->fall_power, "", "give a power above zero");
   }
   need_not_negative(c, "curve.period", curve->period, "ms");
-  need(c, curve->period == 0 || !lasting || curve->duration <= curve->period, "curve.period",
-       curve->period, "ms", "shorter than the duration: give a longer period, or 0 ms for none");
+  need(c, curve->period == 0 || !lasting || curve->start + curve->duration <= curve->period,
+       "curve.period", curve->period, "ms",
+       "shorter than the duration after the start: give a longer period, or 0 ms for none");
   if (curve->kind == VSC_CURVE_TABLE) check_table(c, curve);
 }
 
