@@ -16,7 +16,7 @@ static inline int make_files(void **state)
   snprintf(scene_file, sizeof scene_file, "%s", scratch("scene.yaml"));
   scratch_text("lv.vtu", "mesh");
   scratch_text("angles.vti", "map");
-  scratch_text("curve.csv", "# a beat\ntime,value\n0,0\r\n 100 , 1\n\n200;0.25\n300 0\n");
+  scratch_text("curve.csv", "# a beat\ntime,value\n0,0\r\n 1 , 1\n\n2;0.25\n3 0\n");
   return 0;
 }
 
@@ -79,7 +79,7 @@ static const char full[] =
     "      curve:\n"                                                                    // 45
     "        kind: table\n"                                                             // 46
     "        file: curve.csv\n"                                                         // 47
-    "        time_unit: ms\n"                                                           // 48
+    "        time_unit: 0.1 s\n"                                                           // 48
     "volume: element\n"                                                                 // 49
     "supports:\n"                                                                       // 50
     "  - {set: base, held: [x, z]}\n"                                                   // 51

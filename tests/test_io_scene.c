@@ -160,8 +160,8 @@ static void absent_keys_take_the_defaults(void **state)
 static void written_numbers_keep_every_bit(void **state)
 {
   (void)state;
-  const char *const odd[] = {"time.end=0.1 us",       "materials[0].axial.f=0.1 MPa",
-                             "fibers.pitch=0.3 rad",  "materials[0].name=\"a \\\"b\\\": #c\\\\d\"",
+  const char *const odd[] = {"time.end=0.1 us", "materials[0].axial.f=0.30000000000000004 kPa",
+                             "fibers.pitch=0.3 rad", "materials[0].name=\"a \\\"b\\\": #c\\\\d\"",
                              "gravity=[1e-7 m/s2, -3.3333333333333333e20 m/s2, 5e-324 mm/ms2]"};
   const char *const texts[] = {full, minimal};
   for (size_t i = 0; i < 2; i++) {
