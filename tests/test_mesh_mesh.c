@@ -178,6 +178,7 @@ static void arrays_are_found_and_hinted(void **state)
   vsc_arrays_add(&arrays, "fiber", 3, 4)->values[11] = 5;
   assert_null(vsc_arrays_add(&arrays, "none", 0, 4));
   assert_null(vsc_arrays_add(&arrays, "huge", 3, SIZE_MAX / 2));
+  assert_null(vsc_arrays_add(&arrays, "wraps round", 3, SIZE_MAX / 3 + 2));
   assert_int_equal(arrays.count, 2);
   assert_close(vsc_arrays_find(&arrays, "fiber")->values[11], 5, 0, 0);
   assert_null(vsc_arrays_find(&arrays, "fibre"));
@@ -185,11 +186,14 @@ static void arrays_are_found_and_hinted(void **state)
   assert_string_equal(text, ", known arrays: region, fiber; did you mean fiber?");
   vsc_arrays_hint(&arrays, "qqqq", text, sizeof text);
   assert_string_equal(text, ", known arrays: region, fiber");
+  vsc_arrays_add(&arrays, "fibre2", 1, 1);
+  vsc_arrays_hint(&arrays, "fibres", text, sizeof text);
+  assert_non_null(strstr(text, "; did you mean fibre2?"));
   for (int i = 0; i < 40; i++) vsc_arrays_add(&arrays, "another_name", 1, 1);
   for (size_t size = 1; size < sizeof text; size++) {
     vsc_arrays_hint(&arrays, "fibre", text, size);
     assert_true(strlen(text) < size);
-    if (size > 80) assert_non_null(strstr(text, "...; did you mean fiber?"));
+    if (size > 80) assert_non_null(strstr(text, "...; did you mean fibre2?"));
   }
   vsc_arrays_free(&arrays);
   assert_int_equal(arrays.count, 0);

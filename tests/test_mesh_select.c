@@ -14,26 +14,27 @@ typedef struct fixture {
 } fixture;
 
 // Lists the boundary triangles on z = 0 as triangles of the file, turned the other way round, value
-// 1; then an inner face, value 2.
+// 1; then those at z = 2, value 3; then an inner face, value 2.
 static void list_triangles(fixture *f)
 {
   vsc_mesh *mesh = f->mesh;
   vsc_free(mesh->triangles);
   assert_true(VSC_NEW(mesh->triangles, 3 * f->boundary.count));
+  vsc_array *mark = vsc_arrays_add(&mesh->triangle_data, "mark", 1, f->boundary.count);
+  size_t count = 0;
   for (size_t t = 0; t < f->boundary.count; t++) {
     const uint32_t *node = f->boundary.triangles + 3 * t;
     double height = 0;
     for (int i = 0; i < 3; i++) height += mesh->nodes[3 * (size_t)node[i] + 2];
-    if (height > 0) continue;
-    uint32_t *to = mesh->triangles + 3 * mesh->triangle_count++;
-    for (int i = 0; i < 3; i++) to[i] = node[2 - i];
+    if (height > 0 && height < 6) continue;
+    for (int i = 0; i < 3; i++) mesh->triangles[3 * count + (size_t)i] = node[2 - i];
+    mark->values[count++] = height > 0 ? 3 : 1;
   }
   const uint32_t inner[3] = {box_node(SIZE, 0, 0, 0), box_node(SIZE, 1, 0, 0),
                              box_node(SIZE, 1, 1, 1)};
-  memcpy(mesh->triangles + 3 * mesh->triangle_count++, inner, sizeof inner);
-  vsc_array *mark = vsc_arrays_add(&mesh->triangle_data, "mark", 1, mesh->triangle_count);
-  for (size_t t = 0; t < mesh->triangle_count; t++)
-    mark->values[t] = t + 1 < mesh->triangle_count ? 1 : 2;
+  memcpy(mesh->triangles + 3 * count, inner, sizeof inner);
+  mark->values[count++] = 2;
+  mark->tuples = mesh->triangle_count = count;
 }
 
 static int set_up(void **state)
@@ -86,6 +87,9 @@ static void nodes_of_each_kind(void **state)
   const vsc_selector named = {.name = "held", .kind = VSC_SELECT_SURFACE, .array = "base"};
   assert_int_equal(count_nodes(f, &BOX, NULL, 0), 4);
   assert_int_equal(count_nodes(f, &PLANE, NULL, 0), 9);
+  vsc_selector flipped = PLANE;
+  flipped.normal[2] = 1;
+  assert_int_equal(count_nodes(f, &flipped, NULL, 0), 9);
   assert_int_equal(count_nodes(f, &HEIGHT, NULL, 0), 18);
   assert_int_equal(count_nodes(f, &MARK, NULL, 0), 9);
   assert_int_equal(count_nodes(f, &all, NULL, 0), 26);
@@ -149,7 +153,7 @@ static void empty_sets_say_what_was_near(void **state)
   array.low = array.high = 7;
   assert_no_nodes(f, &array, "the array runs from 0 to 2");
   mark.low = mark.high = 5;
-  assert_no_nodes(f, &mark, "the array runs from 1 to 2");
+  assert_no_nodes(f, &mark, "the array runs from 1 to 3");
 }
 
 static void unknown_names_are_refused_with_the_nearest(void **state)
