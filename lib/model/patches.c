@@ -9,7 +9,7 @@
 
 // Elements of a patch: few enough that its nodes stay in the innermost caches, enough that few are
 // shared, and on small meshes enough patches for several threads. Depends on nothing but the mesh.
-enum { LARGEST_PATCH = 1024, SMALLEST_PATCH = 128, WANTED_PATCHES = 16 };
+enum { LARGEST_PATCH = 2048, SMALLEST_PATCH = 128, WANTED_PATCHES = 16 };
 
 // What is known while the patches are cut.
 typedef struct cutter {

@@ -133,7 +133,7 @@ static double measure_step(const vsc_model *model, vsc_state *state)
   const double start = vsc_wall_seconds();
   double steps = 0, passed = 0;
   while (passed < 0.2 && steps < 1000) {
-    vsc_step(model, state, dt);
+    vsc_steps(model, state, dt, 1);
     steps++;
     passed = vsc_wall_seconds() - start;
   }

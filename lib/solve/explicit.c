@@ -11,6 +11,8 @@
 // as soon when it moved by more than 10 %.
 #define SHORTEST_TRUST 0.25
 #define LONGEST_TRUST 4.0
+// A stable step below this part of the first one belongs to a body that is torn or crushed.
+#define COLLAPSE 1e-3
 enum { FIRST_ITERATIONS = 40, WARM_ITERATIONS = 4, NODES_PER_PIECE = 4096 };
 
 typedef struct motion {
@@ -25,46 +27,62 @@ static size_t piece_end(const motion *m, size_t piece)
   return end < m->model->node_count ? end : m->model->node_count;
 }
 
-// v <- v + dt/2 a;  x <- x + dt v;  predicted velocity of the step's end: v + dt/2 a
-static void kick_and_drift(void *context, size_t piece, int thread)
+// The three sweeps over the nodes are made of these two.
+static inline void drift_node(const motion *m, size_t n, vsc_wide a)
+{
+  vsc_wide *x = (vsc_wide *)m->state->x, *v = (vsc_wide *)m->state->v;
+  // v <- v + dt/2 a;  x <- x + dt v
+  v[n] += 0.5 * m->dt * a;
+  x[n] += m->dt * v[n];
+  // the velocity at the end of the step, as far as it is known now
+  if (m->model->terms.damping) ((vsc_wide *)m->state->scratch.predicted)[n] = v[n] + 0.5 * m->dt * a;
+}
+
+static inline vsc_wide kick_node(const motion *m, size_t n)
+{
+  // a <- f / m;  v <- v + dt/2 a
+  const vsc_wide a = ((const vsc_wide *)m->model->inverse_mass)[n] * ((const vsc_wide *)m->state->force)[n];
+  ((vsc_wide *)m->state->v)[n] += 0.5 * m->dt * a;
+  return a;
+}
+
+static void drift(void *context, size_t piece, int thread)
 {
   (void)thread;
   const motion *m = context;
-  vsc_wide *x = (vsc_wide *)m->state->x, *v = (vsc_wide *)m->state->v;
-  const vsc_wide *a = (const vsc_wide *)m->state->a;
-  vsc_wide *predicted = (vsc_wide *)m->state->scratch.predicted;
-  const bool damping = m->model->terms.damping;
-  for (size_t n = piece * NODES_PER_PIECE; n < piece_end(m, piece); n++) {
-    v[n] += 0.5 * m->dt * a[n];
-    x[n] += m->dt * v[n];
-    if (damping) predicted[n] = v[n] + 0.5 * m->dt * a[n];
-  }
+  for (size_t n = piece * NODES_PER_PIECE; n < piece_end(m, piece); n++)
+    drift_node(m, n, ((const vsc_wide *)m->state->a)[n]);
 }
 
-// a <- f / m;  v <- v + dt/2 a
 static void kick(void *context, size_t piece, int thread)
 {
   (void)thread;
   const motion *m = context;
-  vsc_wide *v = (vsc_wide *)m->state->v, *a = (vsc_wide *)m->state->a;
-  const vsc_wide *force = (const vsc_wide *)m->state->force;
-  const vsc_wide *inverse_mass = (const vsc_wide *)m->model->inverse_mass;
-  for (size_t n = piece * NODES_PER_PIECE; n < piece_end(m, piece); n++) {
-    a[n] = inverse_mass[n] * force[n];
-    v[n] += 0.5 * m->dt * a[n];
-  }
+  for (size_t n = piece * NODES_PER_PIECE; n < piece_end(m, piece); n++)
+    ((vsc_wide *)m->state->a)[n] = kick_node(m, n);
 }
 
-void vsc_step(const vsc_model *model, vsc_state *state, double dt)
+// The end of one step and the beginning of the next in one sweep.
+static void kick_and_drift(void *context, size_t piece, int thread)
+{
+  (void)thread;
+  const motion *m = context;
+  for (size_t n = piece * NODES_PER_PIECE; n < piece_end(m, piece); n++)
+    drift_node(m, n, kick_node(m, n));
+}
+
+void vsc_steps(const vsc_model *model, vsc_state *state, double dt, double count)
 {
   motion m = {model, state, dt};
   const size_t pieces = (model->node_count + NODES_PER_PIECE - 1) / NODES_PER_PIECE;
-  vsc_parallel_for(pieces, kick_and_drift, &m);
-  state->time += dt;
   const double *velocity = model->terms.damping ? state->scratch.predicted : NULL;
-  vsc_force(model, state->x, velocity, state->time, &state->scratch, state->force);
-  vsc_parallel_for(pieces, kick, &m);
-  state->steps++;
+  vsc_parallel_for(pieces, drift, &m);
+  for (double k = 1; k <= count; k++) {
+    state->time += dt;
+    state->steps++;
+    vsc_force(model, state->x, velocity, state->time, &state->scratch, state->force);
+    vsc_parallel_for(pieces, k < count ? kick_and_drift : kick, &m);
+  }
 }
 
 // The time at which the most is active, for the estimate before the first step.
@@ -98,6 +116,7 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
                     model->step, stable, state->limit.step, active_step);
   state->limit.time = state->time;
   state->limit.interval = SHORTEST_TRUST;
+  state->limit.first = stable;
   vsc_force(model, state->x, model->terms.damping ? state->v : NULL, state->time, &state->scratch,
             state->force);
   motion m = {model, state, 0};
@@ -114,6 +133,11 @@ static vsc_status refresh_limit(const vsc_model *model, vsc_state *state, vsc_er
   if (change < 0.02) limit->interval = fmin(2 * limit->interval, LONGEST_TRUST);
   if (change > 0.10) limit->interval = fmax(0.5 * limit->interval, SHORTEST_TRUST);
   limit->time = state->time;
+  if (!isfinite(limit->eigenvalue) || limit->step < COLLAPSE * limit->first)
+    return vsc_fail(error, VSC_NUMERICAL,
+                    "at %.6g ms the stable step has collapsed from %.3g to %.3g ms: elements are torn or crushed; take "
+                    "more damping or a smaller load",
+                    state->time, limit->first, limit->step);
   if (model->step > limit->step / model->safety)
     return vsc_fail(error, VSC_NUMERICAL,
                     "at %.6g ms the tissue has become too stiff for time.step %.6g ms: the stable step is now %.6g ms; "
@@ -145,7 +169,7 @@ vsc_status vsc_advance(const vsc_model *model, vsc_state *state, double until, v
     const double step = model->step > 0 ? model->step : state->limit.step;
     const double start = state->time;
     const double steps = fmax(ceil((stop - start) / step * (1 - 1e-12)), 1);
-    for (double k = 0; k < steps; k++) vsc_step(model, state, (stop - start) / steps);
+    vsc_steps(model, state, (stop - start) / steps, steps);
     state->time = stop;
     const vsc_status status = check_finite(model, state, error);
     if (status != VSC_OK) return status;

@@ -10,13 +10,14 @@
 // one, with both numbers.
 vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error);
 
-// One step of length dt (ms):
+// `count` (at least 1) steps of length dt (ms), each
 //   v <- v + dt/2 a;  x <- x + dt v;  a <- f(x, v + dt/2 a, t + dt) / m;  v <- v + dt/2 a.
 // Second order, symplectic without damping. Damping sees the velocity predicted for the step's end.
-void vsc_step(const vsc_model *model, vsc_state *state, double dt);
+// Neither the limit nor the result is checked: vsc_advance does.
+void vsc_steps(const vsc_model *model, vsc_state *state, double dt, double count);
 
 // Steps from state->time to `until` (ms) in equal steps not longer than the stable one, which is
-// re-estimated at least every millisecond. VSC_NUMERICAL when a position or velocity is no longer
+// re-estimated at least every 4 ms. VSC_NUMERICAL when a position or velocity is no longer
 // finite or a user's step has become unstable: the message names node, place and time.
 vsc_status vsc_advance(const vsc_model *model, vsc_state *state, double until, vsc_error *error);
 
