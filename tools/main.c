@@ -29,6 +29,7 @@ static const verb verbs[] = {
     {"compare", vsc_verb_compare, false, "error norms between two meshes or two series"},
     {"schema", vsc_verb_schema, false, "print a commented template of everything a scene can say"},
     {"generate", vsc_verb_generate, false, "make the meshes and angle maps that ship with viscera"},
+    {"bench", vsc_verb_bench, true, "how many element updates a second this machine does"},
     {"plot", run_plot, false, "draw the graphs and pictures of a simulation's results"},
 };
 
