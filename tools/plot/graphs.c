@@ -165,7 +165,7 @@ static void draw_graph(const graph *g, const vsc_signals *signals, const double 
   }
   plcol0(INK);
   plwidth(1);
-  plbox(last ? "bcnst" : "bcst", 0, 0, "bcnstv", 0, 0);
+  plbox(last ? "bcfnst" : "bcst", 0, 0, "bcfnstv", 0, 0);
   plmtex("t", 0.9, 0.0, 0.0, g->title);
   if (last) plmtex("b", 3.0, 0.5, 0.5, "Time [s]");
 }
