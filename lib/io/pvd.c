@@ -249,15 +249,8 @@ static bool write_list(const vsc_pvd *pvd, FILE *stream)
   return fclose(stream) == 0 && complete;
 }
 
-vsc_status vsc_pvd_add(vsc_pvd *pvd, double time, const char *frame, vsc_error *error)
+vsc_status vsc_pvd_write(const vsc_pvd *pvd, vsc_error *error)
 {
-  if (!isfinite(time) || (pvd->count > 0 && time <= pvd->frames[pvd->count - 1].time))
-    return vsc_fail(error, VSC_INPUT,
-                    "%s: time %g s of frame %s does not follow that of the last one: frames must "
-                    "come in order",
-                    pvd->file, time, frame);
-  if (!append(pvd, time, copy_text(frame, strlen(frame))))
-    return vsc_fail_memory(error, "the list of frames");
   char temporary[VSC_FILE_NAME];
   const vsc_status status = vsc_replace_begin(pvd->file, temporary, error);
   if (status != VSC_OK) return status;
@@ -268,4 +261,16 @@ vsc_status vsc_pvd_add(vsc_pvd *pvd, double time, const char *frame, vsc_error *
   vsc_replace_cancel(temporary);
   return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s: choose another folder", pvd->file,
                   strerror(reason));
+}
+
+vsc_status vsc_pvd_add(vsc_pvd *pvd, double time, const char *frame, vsc_error *error)
+{
+  if (!isfinite(time) || (pvd->count > 0 && time <= pvd->frames[pvd->count - 1].time))
+    return vsc_fail(error, VSC_INPUT,
+                    "%s: time %g s of frame %s does not follow that of the last one: frames must "
+                    "come in order",
+                    pvd->file, time, frame);
+  if (!append(pvd, time, copy_text(frame, strlen(frame))))
+    return vsc_fail_memory(error, "the list of frames");
+  return vsc_pvd_write(pvd, error);
 }

@@ -20,6 +20,9 @@ vsc_status vsc_pvd_open(const char *file, double keep_until, vsc_pvd **pvd, vsc_
 // VSC_INPUT for one that does not, VSC_SYSTEM when the file cannot be written.
 vsc_status vsc_pvd_add(vsc_pvd *pvd, double time, const char *frame, vsc_error *error);
 
+// Rewrites the list as it is, in the same way.
+vsc_status vsc_pvd_write(const vsc_pvd *pvd, vsc_error *error);
+
 size_t vsc_pvd_count(const vsc_pvd *pvd);                    // frames
 double vsc_pvd_time(const vsc_pvd *pvd, size_t frame);       // seconds
 const char *vsc_pvd_frame(const vsc_pvd *pvd, size_t frame); // file name, owned by the list

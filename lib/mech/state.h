@@ -16,6 +16,7 @@ typedef struct vsc_limit {
   double time;        // when it was estimated, ms
   double interval;    // how long the estimate is trusted, ms
   double refreshes;   // estimates so far
+  double first;       // the step that was allowed at the start, ms
   double *mode;       // node_count x 4: the eigenvector so far; owned
 } vsc_limit;
 

@@ -124,6 +124,9 @@ static void hash_model(vsc_model *model)
 {
   const size_t slots = VSC_WIDTH * model->pack_count;
   uint64_t hash = vsc_hash(VSC_HASH_START, model->packs, model->pack_count * sizeof *model->packs);
+  hash = vsc_hash(hash, model->patches, model->patch_count * sizeof *model->patches);
+  hash = vsc_hash(hash, model->known, slots * sizeof *model->known);
+  hash = vsc_hash(hash, &model->terms.nodal_volume, sizeof model->terms.nodal_volume);
   hash = vsc_hash(hash, model->inverse_mass, 4 * model->node_count * sizeof(double));
   hash = vsc_hash(hash, model->rest, 4 * model->node_count * sizeof(double));
   if (model->amplitude) hash = vsc_hash(hash, model->amplitude, slots * sizeof(double));

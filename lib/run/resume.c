@@ -1,54 +1,56 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <string.h>
 
+#include "base/mem.h"
 #include "io/checkpoint.h"
 #include "run/session.h"
 
-enum { BLOCKS = 9, LIMIT_NUMBERS = 5, LEDGER_NUMBERS = 5, WATCH_NUMBERS = 4 };
+// Scalars of a checkpoint, in the order of list_scalars.
+enum { CLOCK = 0, LIMIT = 2, WORKS = 8, WATCH = 13, SCALARS = 17, BLOCKS = 9 };
 
-// The scalars of a checkpoint, gathered to lists.
-typedef struct scalars {
-  double clock[2];
-  double limit[LIMIT_NUMBERS];
-  double ledger[LEDGER_NUMBERS];
-  double watch[WATCH_NUMBERS];
-} scalars;
-
-// Copies the scalars out of the session (save) or into it.
-static void exchange(vsc_session *session, scalars *s, bool save)
+static void list_scalars(vsc_session *session, double *places[SCALARS])
 {
   vsc_state *state = session->state;
   vsc_limit *limit = &state->limit;
-  vsc_ledger *ledger = session->watch->ledger;
-  double *const inside[] = {&state->time, &state->steps, &limit->eigenvalue, &limit->step, &limit->time,
-                            &limit->interval, &limit->refreshes, &ledger->active, &ledger->pressure,
-                            &ledger->dissipated, &ledger->start, &ledger->calls, &session->watch->rows,
-                            &session->watch->balance, &session->watch->energy_scale, &session->most_inverted};
-  double *const outside[] = {s->clock, s->clock + 1, s->limit, s->limit + 1, s->limit + 2,
-                             s->limit + 3, s->limit + 4, s->ledger, s->ledger + 1,
-                             s->ledger + 2, s->ledger + 3, s->ledger + 4, s->watch,
-                             s->watch + 1, s->watch + 2, s->watch + 3};
-  for (size_t k = 0; k < sizeof inside / sizeof inside[0]; k++) {
-    if (save) *outside[k] = *inside[k];
-    else *inside[k] = *outside[k];
-  }
+  vsc_watch *watch = session->watch;
+  vsc_ledger *ledger = watch->ledger;
+  double *const list[SCALARS] = {
+      &state->time, &state->steps,                                                       // CLOCK
+      &limit->eigenvalue, &limit->step, &limit->time, &limit->interval, &limit->refreshes, // LIMIT
+      &limit->first,
+      &ledger->active, &ledger->pressure, &ledger->dissipated, &ledger->start, &ledger->calls,  // WORKS
+      &watch->rows, &watch->balance, &watch->energy_scale, &session->most_inverted};            // WATCH
+  memcpy(places, list, sizeof list);
 }
 
-static void list_blocks(vsc_session *session, scalars *s, vsc_block blocks[BLOCKS])
+static void take_scalars(vsc_session *session, double scalars[SCALARS])
+{
+  double *places[SCALARS];
+  list_scalars(session, places);
+  for (int k = 0; k < SCALARS; k++) scalars[k] = *places[k];
+}
+
+static void put_scalars(vsc_session *session, const double scalars[SCALARS])
+{
+  double *places[SCALARS];
+  list_scalars(session, places);
+  for (int k = 0; k < SCALARS; k++) *places[k] = scalars[k];
+}
+
+static void list_blocks(vsc_session *session, double scalars[SCALARS], vsc_block blocks[BLOCKS])
 {
   vsc_state *state = session->state;
-  vsc_watch *watch = session->watch;
   const size_t nodes = session->problem->model->node_count;
   const vsc_block list[BLOCKS] = {
       {"position", "mm", nodes, 4, state->x},
       {"velocity", "mm/ms", nodes, 4, state->v},
       {"acceleration", "mm/ms^2", nodes, 4, state->a},
       {"stiffest_mode", "1", nodes, 4, state->limit.mode},
-      {"time_and_steps", "ms, 1", 2, 1, s->clock},
-      {"step_limit", "1/ms^2, ms, ms, ms, 1", LIMIT_NUMBERS, 1, s->limit},
-      {"works", "uJ, uJ, uJ, uJ, 1", LEDGER_NUMBERS, 1, s->ledger},
-      {"watch", "1, uJ, uJ, 1", WATCH_NUMBERS, 1, s->watch},
-      {"signal_extrema", "as signals.csv", 2 * VSC_SIGNALS, 1, watch->low},
+      {"time_and_steps", "ms, 1", LIMIT - CLOCK, 1, scalars + CLOCK},
+      {"step_limit", "1/ms^2, ms, ms, ms, 1, ms", WORKS - LIMIT, 1, scalars + LIMIT},
+      {"works", "uJ, uJ, uJ, uJ, 1", WATCH - WORKS, 1, scalars + WORKS},
+      {"watch", "1, uJ, uJ, 1", SCALARS - WATCH, 1, scalars + WATCH},
+      {"signal_extrema", "as signals.csv", 2 * VSC_SIGNALS, 1, session->watch->low},
   };
   memcpy(blocks, list, sizeof list);
 }
@@ -58,24 +60,56 @@ _Static_assert(offsetof(vsc_watch, high) == offsetof(vsc_watch, low) + VSC_SIGNA
 
 vsc_status vsc_session_save(vsc_session *session, vsc_error *error)
 {
-  scalars s;
+  double scalars[SCALARS];
   vsc_block blocks[BLOCKS];
   char path[VSC_PATH];
-  exchange(session, &s, true);
-  list_blocks(session, &s, blocks);
+  take_scalars(session, scalars);
+  list_blocks(session, scalars, blocks);
   vsc_session_path(session, "checkpoint.h5", path);
   return vsc_checkpoint_write(path, session->problem->model->hash, BLOCKS, blocks, error);
 }
 
 vsc_status vsc_session_load(vsc_session *session, vsc_error *error)
 {
-  scalars s;
+  double scalars[SCALARS];
   vsc_block blocks[BLOCKS];
   char path[VSC_PATH];
-  list_blocks(session, &s, blocks);
+  list_blocks(session, scalars, blocks);
   vsc_session_path(session, "checkpoint.h5", path);
   const vsc_status status =
       vsc_checkpoint_read(path, session->problem->model->hash, BLOCKS, blocks, error);
-  if (status == VSC_OK) exchange(session, &s, false);
+  if (status == VSC_OK) put_scalars(session, scalars);
   return status;
+}
+
+// The four arrays of a state that a checkpoint holds.
+static void list_arrays(vsc_session *session, double *arrays[4])
+{
+  vsc_state *state = session->state;
+  double *const list[4] = {state->x, state->v, state->a, state->limit.mode};
+  memcpy(arrays, list, sizeof list);
+}
+
+vsc_status vsc_session_make_good(vsc_session *session, vsc_error *error)
+{
+  if (VSC_NEW(session->good, SCALARS + 16 * session->problem->model->node_count)) return VSC_OK;
+  return vsc_fail_memory(error, "the last good state");
+}
+
+void vsc_session_keep_good(vsc_session *session)
+{
+  const size_t count = 4 * session->problem->model->node_count;
+  double *arrays[4];
+  list_arrays(session, arrays);
+  take_scalars(session, session->good);
+  for (size_t k = 0; k < 4; k++) memcpy(session->good + SCALARS + k * count, arrays[k], count * sizeof(double));
+}
+
+void vsc_session_go_back(vsc_session *session)
+{
+  const size_t count = 4 * session->problem->model->node_count;
+  double *arrays[4];
+  list_arrays(session, arrays);
+  put_scalars(session, session->good);
+  for (size_t k = 0; k < 4; k++) memcpy(arrays[k], session->good + SCALARS + k * count, count * sizeof(double));
 }

@@ -12,11 +12,13 @@
 #include "solve/explicit.h"
 
 #define LONGEST_LOOK 1.0  // ms between two looks of the energy ledger
+#define SAME_TIME 1e-12   // part of a time by which multiples of intervals differ by rounding
+enum { LONGEST_DIRECTORY = VSC_PATH - VSC_NAME - 112 };  // bytes; a slash and a file's name come behind it
 
 void vsc_session_path(const vsc_session *session, const char *what, char path[VSC_PATH])
 {
   const char *name = what[0] == '.' ? session->name : "";
-  snprintf(path, VSC_PATH, "%.380s/%.64s%.64s", session->options->directory, name, what);
+  snprintf(path, VSC_PATH, "%.*s/%.*s%.100s", LONGEST_DIRECTORY, session->options->directory, VSC_NAME, name, what);
 }
 
 static void name_of_scene(const char *file, char name[VSC_NAME])
@@ -34,36 +36,60 @@ static vsc_status make_directory(const char *path, vsc_error *error)
                   strerror(errno));
 }
 
-// A new run takes the frames of an older one away, so that none is left that no series lists.
-static void remove_old_frames(const vsc_session *session, const char *series)
+static vsc_status make_directories(const vsc_session *session, vsc_error *error)
 {
-  vsc_pvd *old;
-  if (vsc_pvd_open(series, HUGE_VAL, &old, NULL) != VSC_OK) return;
-  for (size_t k = 0; k < vsc_pvd_count(old); k++) {
-    char path[VSC_PATH];
+  char path[VSC_PATH];
+  if (strlen(session->options->directory) > LONGEST_DIRECTORY)
+    return vsc_fail(error, VSC_INPUT, "%.60s...: a folder name of more than %d bytes; choose a shorter one with -o",
+                    session->options->directory, LONGEST_DIRECTORY);
+  const vsc_status status = make_directory(session->options->directory, error);
+  vsc_session_path(session, "frames", path);
+  return status == VSC_OK ? make_directory(path, error) : status;
+}
+
+// Removes a file of an older run, so that nothing lies there that does not belong to this one.
+static void remove_file(const vsc_session *session, const char *what)
+{
+  char path[VSC_PATH];
+  vsc_session_path(session, what, path);
+  unlink(path);
+}
+
+static void remove_frames(const vsc_session *session, const vsc_pvd *old, size_t first)
+{
+  for (size_t k = first; k < vsc_pvd_count(old); k++) {
     const char *frame = vsc_pvd_frame(old, k);
-    if (strncmp(frame, "frames/", 7) != 0 || strstr(frame, "..") != NULL) continue;
-    vsc_session_path(session, frame, path);
-    unlink(path);
+    if (strncmp(frame, "frames/", 7) == 0 && strstr(frame, "..") == NULL) remove_file(session, frame);
   }
+}
+
+// The series with the frames up to the checkpoint's time, or none; the others' files are removed.
+static vsc_status open_series(vsc_session *session, vsc_error *error)
+{
+  char series[VSC_PATH];
+  vsc_pvd *old = NULL;
+  vsc_session_path(session, ".pvd", series);
+  if (vsc_pvd_open(series, HUGE_VAL, &old, NULL) != VSC_OK) old = NULL;
+  // a frame at the checkpoint's own time stays
+  const double keep = session->options->resume ? 1e-3 * session->state->time + 1e-6 : -1;
+  vsc_status status = vsc_pvd_open(series, keep, &session->pvd, error);
+  if (status == VSC_OK) status = vsc_pvd_write(session->pvd, error);
+  if (status == VSC_OK && old != NULL) remove_frames(session, old, vsc_pvd_count(session->pvd));
   vsc_pvd_free(old);
+  return status;
 }
 
 static vsc_status open_files(vsc_session *session, vsc_error *error)
 {
-  char path[VSC_PATH], series[VSC_PATH];
-  const bool resume = session->options->resume;
-  vsc_status status = make_directory(session->options->directory, error);
-  vsc_session_path(session, "frames", path);
-  if (status == VSC_OK) status = make_directory(path, error);
-  vsc_session_path(session, ".pvd", series);
-  if (status == VSC_OK && !resume) remove_old_frames(session, series);
+  char path[VSC_PATH];
+  vsc_status status = make_directories(session, error);
+  if (status == VSC_OK && !session->options->resume) {
+    remove_file(session, "checkpoint.h5");
+    remove_file(session, "summary.json");
+  }
   vsc_session_path(session, "scene.yaml", path);
   if (status == VSC_OK) status = vsc_scene_write(session->problem->scene, path, error);
-  // a frame at the checkpoint's own time stays
-  const double keep = resume ? 1e-3 * session->state->time + 1e-6 : -1;
-  if (status == VSC_OK) status = vsc_pvd_open(series, keep, &session->pvd, error);
-  return status;
+  return status == VSC_OK ? open_series(session, error) : status;
 }
 
 static vsc_status open_watch(vsc_session *session, double keep_until, vsc_error *error)
@@ -89,34 +115,11 @@ static vsc_status resume(vsc_session *session, vsc_error *error)
   return status;
 }
 
-// Remembers the state as good, or goes back to it.
-static void keep_good(vsc_session *session)
-{
-  const size_t count = 4 * session->problem->model->node_count;
-  const vsc_state *state = session->state;
-  session->good[0] = state->time;
-  session->good[1] = state->steps;
-  memcpy(session->good + 2, state->x, count * sizeof(double));
-  memcpy(session->good + 2 + count, state->v, count * sizeof(double));
-  memcpy(session->good + 2 + 2 * count, state->a, count * sizeof(double));
-}
-
-static void go_back_to_good(vsc_session *session)
-{
-  const size_t count = 4 * session->problem->model->node_count;
-  vsc_state *state = session->state;
-  state->time = session->good[0];
-  state->steps = session->good[1];
-  memcpy(state->x, session->good + 2, count * sizeof(double));
-  memcpy(state->v, session->good + 2 + count, count * sizeof(double));
-  memcpy(state->a, session->good + 2 + 2 * count, count * sizeof(double));
-}
-
 static vsc_status observe(vsc_session *session, vsc_error *error)
 {
   const vsc_status status = vsc_watch_observe(session->problem, session->state, session->watch, error);
   session->most_inverted = fmax(session->most_inverted, session->watch->totals.inverted);
-  if (status == VSC_OK) keep_good(session);
+  if (status == VSC_OK) vsc_session_keep_good(session);
   return status;
 }
 
@@ -129,12 +132,11 @@ static vsc_status start(vsc_session *session, vsc_error *error)
 {
   vsc_problem *problem = session->problem;
   vsc_status status = vsc_state_create(problem->model, &session->state, error);
-  if (status == VSC_OK && !VSC_NEW(session->good, 2 + 12 * problem->model->node_count))
-    status = vsc_fail_memory(error, "the last good state");
+  if (status == VSC_OK) status = vsc_session_make_good(session, error);
   if (status != VSC_OK) return status;
   if (session->options->resume) {
     status = resume(session, error);
-    if (status == VSC_OK) keep_good(session);
+    if (status == VSC_OK) vsc_session_keep_good(session);
     return status;
   }
   status = vsc_start(problem->model, session->state, error);
@@ -150,39 +152,40 @@ static vsc_status start(vsc_session *session, vsc_error *error)
 static double next_event(double time, double interval, double end)
 {
   if (!(interval > 0)) return end;
-  const double next = interval * (floor(time / interval + 1e-6) + 1);
-  return next < end * (1 - 1e-12) ? next : end;
+  const double next = interval * (floor(time / interval * (1 + SAME_TIME)) + 1);
+  return next < end * (1 - SAME_TIME) ? next : end;
 }
 
 static bool is_event(double time, double interval, double end)
 {
   if (time >= end) return true;
-  return interval > 0 && fabs(time - interval * round(time / interval)) < 1e-6 * interval;
+  return interval > 0 && fabs(time - interval * round(time / interval)) <= SAME_TIME * time;
 }
 
+// Goes on to the first look at or after `stop`: looks, and with them the steps, are where they would be without
+// a stop.
 static vsc_status advance(vsc_session *session, double stop, vsc_error *error)
 {
   const vsc_output_def *output = &session->problem->scene->output;
   const vsc_model *model = session->problem->model;
+  const double end = model->end_time;
   vsc_state *state = session->state;
   vsc_status status = VSC_OK;
   // the ledger wants a look at least every LONGEST_LOOK, however rare the rows are
   const double look = output->signal_interval / ceil(output->signal_interval / LONGEST_LOOK);
-  while (state->time < stop && status == VSC_OK) {
-    double next = next_event(state->time, look, stop);
-    next = fmin(next, next_event(state->time, output->frame_interval, stop));
-    next = fmin(next, next_event(state->time, output->checkpoint_interval, stop));
+  while (state->time < stop * (1 - SAME_TIME) && status == VSC_OK) {
+    double next = next_event(state->time, look, end);
+    next = fmin(next, next_event(state->time, output->frame_interval, end));
+    next = fmin(next, next_event(state->time, output->checkpoint_interval, end));
     status = vsc_advance(model, state, next, error);
     if (status == VSC_OK) status = observe(session, error);
-    if (status == VSC_OK && is_event(next, output->signal_interval, model->end_time))
-      status = write_row(session, error);
-    if (status == VSC_OK && is_event(next, output->frame_interval, model->end_time))
+    if (status == VSC_OK && is_event(next, output->signal_interval, end)) status = write_row(session, error);
+    if (status == VSC_OK && is_event(next, output->frame_interval, end))
       status = vsc_session_write_frame(session, error);
-    if (status == VSC_OK && output->checkpoint_interval > 0 &&
-        is_event(next, output->checkpoint_interval, stop))
+    if (status == VSC_OK && output->checkpoint_interval > 0 && is_event(next, output->checkpoint_interval, end))
       status = vsc_session_save(session, error);
     if (status == VSC_OK && session->options->progress != NULL)
-      session->options->progress(session->options->progress_context, state->time, model->end_time,
+      session->options->progress(session->options->progress_context, state->time, end,
                                  vsc_wall_seconds() - session->start_wall);
   }
   return status;
@@ -205,7 +208,7 @@ static void fill_result(const vsc_session *session, vsc_run_result *result)
 static void save_failure(vsc_session *session, vsc_run_result *result, const vsc_error *error)
 {
   if (session->pvd == NULL || session->watch == NULL || session->watch->rows == 0) return;
-  go_back_to_good(session);
+  vsc_session_go_back(session);
   const size_t frames = vsc_pvd_count(session->pvd);
   if (frames == 0 || fabs(vsc_pvd_time(session->pvd, frames - 1) - 1e-3 * session->state->time) > 1e-9)
     vsc_session_write_frame(session, NULL);

@@ -14,7 +14,8 @@ typedef void vsc_progress(void *context, double time, double end, double wall_se
 typedef struct vsc_run_options {
   const char *directory;   // results go here; made when missing
   bool resume;             // go on from the directory's checkpoint
-  double stop_time;        // ms; > 0: stop there, leaving a checkpoint, as if interrupted
+  double stop_time;        // ms; > 0: stop there (at the next row of signals or, if sooner, whole ms), leaving a
+                           // checkpoint, as if interrupted
   vsc_progress *progress;  // may be NULL
   void *progress_context;
 } vsc_run_options;

@@ -14,7 +14,7 @@ typedef struct vsc_session {
   vsc_state *state;
   vsc_watch *watch;
   vsc_pvd *pvd;
-  double *good;             // the last good state: time, steps, then x, v, a; owned
+  double *good;             // what vsc_session_keep_good has kept; owned
   double start_wall, start_cpu, start_steps, start_time;
   double most_inverted;     // largest number of tets with J <= 0 at any row
 } vsc_session;
@@ -28,6 +28,12 @@ vsc_status vsc_session_write_frame(vsc_session *session, vsc_error *error);
 // Writes or reads DIRECTORY/checkpoint.h5.
 vsc_status vsc_session_save(vsc_session *session, vsc_error *error);
 vsc_status vsc_session_load(vsc_session *session, vsc_error *error);
+
+// Memory for the last good state; then: remembers the state and all that belongs to a checkpoint of it, or goes
+// back to what was remembered last.
+vsc_status vsc_session_make_good(vsc_session *session, vsc_error *error);
+void vsc_session_keep_good(vsc_session *session);
+void vsc_session_go_back(vsc_session *session);
 
 // Writes DIRECTORY/summary.json; `failure` is NULL for a run that has reached its end.
 vsc_status vsc_session_summarize(const vsc_session *session, const vsc_run_result *result,
