@@ -104,9 +104,9 @@ void vsc_view_colour(double share, double colour[3])
 {
   static const double stops[5][3] = {{0.94, 0.83, 0.74},
                                      {0.95, 0.68, 0.50},
-                                     {0.88, 0.42, 0.34},
-                                     {0.73, 0.17, 0.25},
-                                     {0.50, 0.05, 0.25}};
+                                     {0.90, 0.46, 0.36},
+                                     {0.80, 0.25, 0.26},
+                                     {0.62, 0.08, 0.22}};
   const double place = 4 * fmin(fmax(share, 0), 1);
   const int stop = place >= 4 ? 3 : (int)place;
   for (int k = 0; k < 3; k++)
