@@ -73,4 +73,24 @@ static inline char *scratch_load(const char *path, size_t *bytes)
   return text;
 }
 
+// From here to scratch_unhush what goes to stderr is kept in a file.
+static inline int scratch_hush(void)
+{
+  fflush(stderr);
+  const int kept = dup(STDERR_FILENO);
+  if (kept < 0 || freopen(scratch("stderr.txt"), "wb", stderr) == NULL) abort();
+  return kept;
+}
+
+// Ends scratch_hush, which returned `kept`; returns how many bytes went to stderr.
+static inline size_t scratch_unhush(int kept)
+{
+  fflush(stderr);
+  dup2(kept, STDERR_FILENO);
+  close(kept);
+  size_t bytes = 0;
+  free(scratch_load(scratch("stderr.txt"), &bytes));
+  return bytes;
+}
+
 #endif

@@ -169,6 +169,17 @@ static void what_cannot_be_written_is_reported(void **state)
   assert_int_not_equal(access(scratch("old.h5.tmp"), F_OK), 0);
 }
 
+static void hdf5_is_silent(void **state)
+{
+  (void)state;
+  const char *path = scratch_text("text.h5", "garbage");
+  const int kept = scratch_hush();
+  const vsc_status status = vsc_checkpoint_read(path, HASH, BLOCKS, IN, NULL);
+  const size_t printed = scratch_unhush(kept);
+  assert_int_equal(status, VSC_INPUT);
+  assert_int_equal(printed, 0);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -180,6 +191,7 @@ int main(void)
     cmocka_unit_test(truncated_files_are_refused),
     cmocka_unit_test(damaged_numbers_are_refused),
     cmocka_unit_test(what_cannot_be_written_is_reported),
+    cmocka_unit_test(hdf5_is_silent),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }

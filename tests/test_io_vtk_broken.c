@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files that nobody should have sent: each ends in VSC_INPUT and one line that names it.
+#define _GNU_SOURCE  // memmem
 #include <string.h>
 #include <sys/stat.h>
 
@@ -74,11 +75,17 @@ static const char *write_parts(parts p)
   return scratch_text("parts.vtu", text);
 }
 
+static const char LEGACY[] = "# vtk DataFile Version 3.0\nheart\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                             "POINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\n"
+                             "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n";
+
 static void the_parts_as_they_should_be(void **state)
 {
   (void)state;
   vsc_mesh *mesh;
   assert_int_equal(vsc_vtk_read_mesh(write_parts((parts){0}), 1, &mesh, NULL), VSC_OK);
+  vsc_mesh_free(mesh);
+  assert_int_equal(vsc_vtk_read_mesh(scratch_text("l.vtk", LEGACY), 1, &mesh, NULL), VSC_OK);
   vsc_mesh_free(mesh);
 }
 
@@ -165,6 +172,10 @@ static void cells_that_lie(void **state)
   const char *offsets[] = {"4 800", "8 4", "-4 8", "4 -9223372036854775807", "4", "4 2"};
   for (size_t i = 0; i < sizeof offsets / sizeof offsets[0]; i++)
     assert_no_mesh(write_parts((parts){.offsets = offsets[i]}), "");
+  // A cell that is ignored must not lead the tet behind it out of the list.
+  const char *astray[] = {"40000 40004", "-4 0", "40004 40000"};
+  for (size_t i = 0; i < sizeof astray / sizeof astray[0]; i++)
+    assert_no_mesh(write_parts((parts){.offsets = astray[i], .types = "12 10"}), "");
 }
 
 static void geometry_that_means_nothing(void **state)
@@ -237,6 +248,19 @@ static void truncated_xml(void **state)
   free(whole);
 }
 
+// The numbers of an array that nobody needs for the mesh itself are damaged, its length isn't.
+static void damaged_arrays(void **state)
+{
+  (void)state;
+  size_t bytes;
+  char *whole = scratch_load(write_box("whole.vtu"), &bytes);
+  char *data = memmem(whole, bytes, "\n   _", 5);
+  assert_non_null(data);
+  memset(data + 50, 'x', 20);
+  assert_no_mesh(scratch_bytes("damaged.vtu", whole, bytes), "(VTK: ");
+  free(whole);
+}
+
 static void truncated_ascii_xml(void **state)
 {
   (void)state;
@@ -261,15 +285,36 @@ static void truncated_images(void **state)
   free(whole);
 }
 
-static const char LEGACY[] = "# vtk DataFile Version 3.0\nheart\nASCII\nDATASET UNSTRUCTURED_GRID\n"
-                             "POINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\n"
-                             "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n";
-
 static void truncated_legacy(void **state)
 {
   (void)state;
   for (size_t cut = 0; cut + 3 < sizeof LEGACY; cut++)
     assert_no_mesh(scratch_bytes("cut.vtk", LEGACY, cut), "");
+}
+
+// An array that breaks off must be noticed, though the mesh itself is complete.
+static void truncated_legacy_arrays(void **state)
+{
+  (void)state;
+  const char *arrays[] = {
+    "POINT_DATA 4\nSCALARS a float 1\nLOOKUP_TABLE default\n1 2 3 4\n",
+    "POINT_DATA 4\nFIELD f 1\nb 2 4 double\n1 2 3 4\n5 6 7 8",
+    "CELL_DATA 1\nSCALARS c int 1\nLOOKUP_TABLE default\n5\nPOINT_DATA 4\n"
+    "VECTORS d float\n1 2 3 4 5 6 7 8 9 10 11 12\n\n",
+  };
+  for (size_t a = 0; a < sizeof arrays / sizeof arrays[0]; a++) {
+    char text[1000];
+    const size_t length = (size_t)sprintf(text, "%s%s", LEGACY, arrays[a]);
+    vsc_mesh *mesh = NULL;
+    assert_int_equal(vsc_vtk_read_mesh(scratch_text("whole.vtk", text), 1, &mesh, NULL), VSC_OK);
+    vsc_mesh_free(mesh);
+    size_t end = length;
+    while (text[end - 1] == '\n') end--;
+    const size_t numbers = (size_t)(strrchr(text, '1') - text);
+    for (size_t cut = numbers < end - 20 ? end - 20 : numbers; cut < end; cut++)
+      if (text[cut] != ' ' && text[cut] != '\n' && (text[cut - 1] == ' ' || text[cut - 1] == '\n'))
+        assert_no_mesh(scratch_bytes("cut.vtk", text, cut), "cut short");
+  }
 }
 
 // The good file with one text in it replaced.
@@ -289,7 +334,7 @@ static void legacy_files_that_lie(void **state)
   assert_no_mesh(write_legacy("4 0 1 2 3", "3 0 1 2 3"), "");
   assert_no_mesh(write_legacy("4 0 1 2 3", "9 0 1 2 3"), "");
   assert_no_mesh(write_legacy("\n10\n", "\n12\n"), "no tetrahedra (1 hexahedra)");
-  assert_no_mesh(write_legacy("0 0 1\n", "0 0 x\n"), "");
+  assert_no_mesh(write_legacy("0 0 1\n", "0 0 x\n"), "(VTK: Unrecognized keyword: x)");
   assert_no_mesh(write_legacy("0 0 1\n", "0 0 nan\n"), "");
   assert_no_mesh(write_legacy("POINTS 4 float", "POINTS 4 flaot"), "");
   assert_no_mesh(write_legacy("POINTS 4", "POINTS 0"), "");
@@ -342,9 +387,11 @@ int main(void)
     cmocka_unit_test(points_that_are_not_numbers),
     cmocka_unit_test(arrays_that_lie),
     cmocka_unit_test(truncated_xml),
+    cmocka_unit_test(damaged_arrays),
     cmocka_unit_test(truncated_ascii_xml),
     cmocka_unit_test(truncated_images),
     cmocka_unit_test(truncated_legacy),
+    cmocka_unit_test(truncated_legacy_arrays),
     cmocka_unit_test(legacy_files_that_lie),
     cmocka_unit_test(images_that_mean_nothing),
   };

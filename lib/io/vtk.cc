@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reading; vtk_write.cc writes.
+#include <strings.h>
 #include <sys/stat.h>
 
 #include <cctype>
@@ -9,6 +10,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <string>
@@ -18,6 +21,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
+#include <vtkCharArray.h>
 #include <vtkDataArray.h>
 #include <vtkDataObjectTypes.h>
 #include <vtkGenericDataObjectReader.h>
@@ -26,8 +30,11 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkStructuredPoints.h>
+#include <vtkStructuredPointsReader.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkUnstructuredGridReader.h>
 #include <vtkXMLFileReadTester.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
@@ -87,19 +94,51 @@ vsc_status fail_read(const char *file, const silence &quiet, vsc_error *error)
                   quiet.said().c_str());
 }
 
-// Reads the data object of a .vtk file if it is of the VTK type `type`.
+// VTK doesn't notice when the numbers of a legacy file's last array end too soon: the missing ones
+// come as whatever was in memory. So the file is read once more with a number behind its end: VTK
+// must complain of just that number, or the array has swallowed some of it.
+const char STRAY[] = "271828182845";
+
+std::string load_with_stray(const char *file)
+{
+  std::ifstream stream(file, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  size_t third_line = text.find('\n');
+  if (third_line != std::string::npos) third_line = text.find('\n', third_line + 1);
+  const bool binary = third_line != std::string::npos &&
+                      strncasecmp(text.c_str() + third_line + 1, "binary", 6) == 0;
+  return text + (binary ? "" : "\n") + STRAY + "\n";
+}
+
+template <typename Reader> bool breaks_off(const char *file, const silence &quiet)
+{
+  const std::string text = load_with_stray(file);
+  vtkNew<vtkCharArray> array;
+  array->SetNumberOfValues((vtkIdType)text.size());
+  std::memcpy(array->GetPointer(0), text.data(), text.size());
+  vtkNew<Reader> reader;
+  reader->SetInputArray(array);
+  reader->ReadFromInputStringOn();
+  reader->Update();
+  return quiet.said().find(STRAY) == std::string::npos;
+}
+
+// Reads a .vtk file of the VTK type that `Reader` reads.
+template <typename Reader>
 vsc_status read_legacy(const char *file, int type, const char *wanted, const silence &quiet,
                        vtkSmartPointer<vtkDataObject> &object, vsc_error *error)
 {
-  vtkNew<vtkGenericDataObjectReader> reader;
-  reader->SetFileName(file);
-  const int found = reader->ReadOutputType();
+  vtkNew<vtkGenericDataObjectReader> tester;
+  tester->SetFileName(file);
+  const int found = tester->ReadOutputType();
   if (found < 0)
     return vsc_fail(error, VSC_INPUT,
                     "%s: is not a legacy VTK file (VTK: %s): check its first lines", file,
                     quiet.said().c_str());
-  if (found != type && !(type == VTK_IMAGE_DATA && found == VTK_STRUCTURED_POINTS))
+  if (found != type)
     return fail_kind(file, vtkDataObjectTypes::GetClassNameFromTypeId(found) + 3, wanted, error);
+  vtkNew<Reader> reader;
+  reader->SetFileName(file);
   reader->ReadAllScalarsOn();
   reader->ReadAllVectorsOn();
   reader->ReadAllNormalsOn();
@@ -108,7 +147,8 @@ vsc_status read_legacy(const char *file, int type, const char *wanted, const sil
   reader->ReadAllTCoordsOn();
   reader->ReadAllFieldsOn();
   reader->Update();
-  if (quiet.failed() || reader->GetErrorCode() != 0) return fail_read(file, quiet, error);
+  if (quiet.failed() || reader->GetErrorCode() != 0 || breaks_off<Reader>(file, quiet))
+    return fail_read(file, quiet, error);
   object = reader->GetOutput();
   return VSC_OK;
 }
@@ -320,7 +360,8 @@ vsc_status read_mesh(const char *file, double unit, vsc_mesh **mesh, vsc_error *
     "an UnstructuredGrid is needed: mesh the organ's volume with tetrahedra";
   vtkSmartPointer<vtkDataObject> object;
   status = ends_with(file, ".vtk")
-             ? read_legacy(file, VTK_UNSTRUCTURED_GRID, wanted, quiet, object, error)
+             ? read_legacy<vtkUnstructuredGridReader>(file, VTK_UNSTRUCTURED_GRID, wanted, quiet,
+                                                      object, error)
              : read_xml<vtkXMLUnstructuredGridReader>(file, "UnstructuredGrid", wanted, quiet,
                                                       object, error);
   if (status != VSC_OK) return status;
@@ -384,7 +425,8 @@ vsc_status read_image(const char *file, double unit, vsc_image **image, vsc_erro
   static const char wanted[] = "an ImageData is needed: resample the data onto an image";
   vtkSmartPointer<vtkDataObject> object;
   status = ends_with(file, ".vtk")
-             ? read_legacy(file, VTK_IMAGE_DATA, wanted, quiet, object, error)
+             ? read_legacy<vtkStructuredPointsReader>(file, VTK_STRUCTURED_POINTS, wanted, quiet,
+                                                      object, error)
              : read_xml<vtkXMLImageDataReader>(file, "ImageData", wanted, quiet, object, error);
   if (status != VSC_OK) return status;
   vtkImageData *grid = vtkImageData::SafeDownCast(object);

@@ -80,7 +80,7 @@ public:
     const size_t object = text.find("): ");
     if (object != std::string::npos) text.erase(0, object + 3);
     while (!text.empty() && std::isspace((unsigned char)text.back())) text.pop_back();
-    return text.empty() ? "no reason given" : text.substr(0, 200);
+    return text.empty() ? "it breaks off" : text.substr(0, 200);
   }
 
 private:
