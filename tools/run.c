@@ -34,21 +34,29 @@ typedef struct run_arguments {
   bool quiet;
 } run_arguments;
 
-// One line, overwritten, while stderr is a terminal.
+// One line, overwritten, while stderr is a terminal. `context` is where the counting began: time in ms and wall
+// seconds of the first call, which a resumed run makes late.
 static void show_progress(void *context, double time, double end, double wall_seconds)
 {
-  (void)context;
-  const double left = time > 0 ? wall_seconds * (end - time) / time : 0;
-  fprintf(stderr, "\r%6.1f of %.1f ms   %.3g simulated s per minute   %.0f s left   ", time, end,
-          60 * 1e-3 * time / (wall_seconds > 0 ? wall_seconds : 1), left);
-  if (time >= end) fputc('\n', stderr);
+  double *begin = context;
+  if (begin[1] < 0) {
+    begin[0] = time;
+    begin[1] = wall_seconds;
+  }
+  const double done = time - begin[0], speed = done > 0 ? done / (wall_seconds - begin[1]) : 0;
+  fprintf(stderr, "\r%6.1f of %.1f ms   %.3g simulated s per minute   ", time, end, 60 * 1e-3 * speed);
+  if (speed > 0) fprintf(stderr, "%.0f s left   ", (end - time) / speed);
   fflush(stderr);
 }
 
 static int keep_stop(const char *text, run_arguments *arguments)
 {
   vsc_error error;
-  if (vsc_units_read(text, VSC_TIME, &arguments->run.stop_time, &error) == VSC_OK) return 0;
+  double stop = 0;
+  if (vsc_units_read(text, VSC_TIME, &stop, &error) == VSC_OK && stop <= 0)
+    vsc_fail(&error, VSC_INPUT, "%s: expected a time above zero", text);
+  arguments->run.stop_time = stop;
+  if (stop > 0) return 0;
   fprintf(stderr, "viscera: --stop: %s\n", error.text);
   return 2;
 }
@@ -114,10 +122,13 @@ int vsc_verb_run(int argc, char **argv)
   code = vsc_load_scene(&arguments.scene, &problem);
   if (code != 0) return code;
   if (!arguments.quiet) vsc_check_warnings(problem, stderr, "viscera: warning: ");
+  double begin[2] = {0, -1};
   if (!arguments.quiet && isatty(STDERR_FILENO)) arguments.run.progress = show_progress;
+  arguments.run.progress_context = begin;
   vsc_run_result result;
   vsc_error error;
   code = (int)vsc_run(problem, &arguments.run, &result, &error);
+  if (begin[1] >= 0) fputc('\n', stderr);  // behind the progress
   if (code != 0) fprintf(stderr, "viscera: %s\n", error.text);
   else report(&result);
   vsc_problem_free(problem);

@@ -12,6 +12,7 @@
 #include "solve/explicit.h"
 
 #define LONGEST_LOOK 1.0  // ms between two looks of the energy ledger
+#define CLOSER 16         // looks in place of one that did not balance
 #define SAME_TIME 1e-12   // part of a time by which multiples of intervals differ by rounding
 enum { LONGEST_DIRECTORY = VSC_PATH - VSC_NAME - 112 };  // bytes; a slash and a file's name come behind it
 
@@ -162,13 +163,34 @@ static bool is_event(double time, double interval, double end)
   return interval > 0 && fabs(time - interval * round(time / interval)) <= SAME_TIME * time;
 }
 
+static vsc_status go_to(vsc_session *session, double time, vsc_error *error)
+{
+  const vsc_status status = vsc_advance(session->problem->model, session->state, time, error);
+  return status == VSC_OK ? observe(session, error) : status;
+}
+
+// To the next look. When energy does not balance there, because loads or vibrations have changed much since the
+// last look, the same way is gone again with closer looks; what does not balance then is coming apart.
+static vsc_status go_to_look(vsc_session *session, double time, vsc_error *error)
+{
+  const vsc_status status = go_to(session, time, error);
+  if (status != VSC_NUMERICAL || session->state->time < time) return status;
+  vsc_session_go_back(session);
+  vsc_watch_resume(session->problem, session->state, session->watch);
+  const double start = session->state->time;
+  for (int k = 1; k < CLOSER; k++) {
+    const vsc_status again = go_to(session, start + (time - start) * k / CLOSER, error);
+    if (again != VSC_OK) return again;
+  }
+  return go_to(session, time, error);
+}
+
 // Goes on to the first look at or after `stop`: looks, and with them the steps, are where they would be without
 // a stop.
 static vsc_status advance(vsc_session *session, double stop, vsc_error *error)
 {
   const vsc_output_def *output = &session->problem->scene->output;
-  const vsc_model *model = session->problem->model;
-  const double end = model->end_time;
+  const double end = session->problem->model->end_time;
   vsc_state *state = session->state;
   vsc_status status = VSC_OK;
   // the ledger wants a look at least every LONGEST_LOOK, however rare the rows are
@@ -177,8 +199,7 @@ static vsc_status advance(vsc_session *session, double stop, vsc_error *error)
     double next = next_event(state->time, look, end);
     next = fmin(next, next_event(state->time, output->frame_interval, end));
     next = fmin(next, next_event(state->time, output->checkpoint_interval, end));
-    status = vsc_advance(model, state, next, error);
-    if (status == VSC_OK) status = observe(session, error);
+    status = go_to_look(session, next, error);
     if (status == VSC_OK && is_event(next, output->signal_interval, end)) status = write_row(session, error);
     if (status == VSC_OK && is_event(next, output->frame_interval, end))
       status = vsc_session_write_frame(session, error);
