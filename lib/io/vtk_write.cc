@@ -107,8 +107,8 @@ vsc_status write_file(const char *file, vtkDataObject *object, vsc_error *error)
     vtkNew<Writer> writer;
     writer->SetFileName(temporary);
     writer->SetInputDataObject(object);
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
+    // inline: Debian 12's ParaView, with its newest expat, cannot read appended data of any encoding
+    writer->SetDataModeToBinary();
     writer->SetHeaderTypeToUInt64();
     writer->SetCompressorTypeToZLib();
     writer->SetCompressionLevel(COMPRESSION_LEVEL);
