@@ -2,7 +2,6 @@
 #include "io/scene.h"
 
 #include <errno.h>
-#include <stdarg.h>
 #include <string.h>
 
 #include "base/mem.h"
@@ -10,71 +9,6 @@
 
 enum { LARGEST_SCENE = 8 << 20 };  // bytes
 
-size_t vsc_enter(vsc_reading *reading, const char *key)
-{
-  const size_t length = strlen(reading->key);
-  const char *dot = length > 0 && key[0] != '\0' ? "." : "";
-  snprintf(reading->key + length, VSC_SCENE_KEY - length, "%s%s", dot, key);
-  return length;
-}
-
-size_t vsc_enter_item(vsc_reading *reading, size_t item)
-{
-  const size_t length = strlen(reading->key);
-  snprintf(reading->key + length, VSC_SCENE_KEY - length, "[%zu]", item);
-  return length;
-}
-
-void vsc_leave(vsc_reading *reading, size_t length)
-{
-  reading->key[length] = '\0';
-}
-
-// The setting that gave `key` or something that contains it; the last one counts.
-static const vsc_setting *setting_of(const vsc_reading *reading, const char *key)
-{
-  for (size_t i = reading->setting_count; i-- > 0;) {
-    const vsc_setting *setting = &reading->settings[i];
-    const size_t length = strlen(setting->key);
-    if (length > 0 && strncmp(setting->key, key, length) == 0 && strchr(".[", key[length]) != NULL)
-      return setting;
-  }
-  return NULL;
-}
-
-static vsc_status fail_at(const vsc_reading *reading, const char *key, const char *text)
-{
-  const vsc_setting *setting = reading->current;
-  if (setting == NULL) setting = setting_of(reading, key);
-  const char *colon = key[0] != '\0' ? ": " : "";
-  if (setting != NULL)
-    return vsc_fail(reading->error, VSC_INPUT, "%s: --set %.100s: %s%s%s", reading->file,
-                    setting->text, key, colon, text);
-  return vsc_fail(reading->error, VSC_INPUT, "%s:%zu: %s%s%s", reading->file,
-                  vsc_locator_line(reading->locator, key), key, colon, text);
-}
-
-vsc_status vsc_reading_fail(const vsc_reading *reading, const char *format, ...)
-{
-  char text[VSC_ERROR_TEXT];
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return fail_at(reading, reading->key, text);
-}
-
-vsc_status vsc_reading_locate(const vsc_reading *reading, const vsc_error *found)
-{
-  char key[VSC_SCENE_KEY];
-  const char *colon = strstr(found->text, ": ");
-  if (found->status != VSC_INPUT || colon == NULL)
-    return vsc_fail(reading->error, found->status, "%s: %s", reading->file, found->text);
-  snprintf(key, sizeof key, "%.*s", (int)(colon - found->text), found->text);
-  return fail_at(reading, key, colon + 2);
-}
-
-// Reads until the end of the stream or one byte more than a scene may have.
 static bool read_stream(FILE *stream, char **text, size_t *size)
 {
   for (size_t room = 1 << 14;; room *= 2) {

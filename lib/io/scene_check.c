@@ -1,39 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What can be said about a scene before its mesh is read: files, names, ranges.
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/vec3.h"
 #include "io/scene_reading.h"
-
-vsc_status vsc_scene_file_exists(vsc_reading *reading, const char *file)
-{
-  struct stat found;
-  if (stat(file, &found) != 0)
-    return vsc_reading_fail(reading,
-                            "%s: %s; expected a file, relative names count from the "
-                            "scene's folder",
-                            file, strerror(errno));
-  if (!S_ISREG(found.st_mode)) return vsc_reading_fail(reading, "%s: not a file", file);
-  if (access(file, R_OK) != 0)
-    return vsc_reading_fail(reading, "%s: %s; make it readable", file, strerror(errno));
-  return VSC_OK;
-}
-
-vsc_status vsc_scene_resolve(vsc_reading *reading, const char *file, char resolved[VSC_PATH])
-{
-  const char *slash = strrchr(reading->file, '/');
-  const int folder = file[0] == '/' || slash == NULL ? 0 : (int)(slash + 1 - reading->file);
-  const int length = snprintf(resolved, VSC_PATH, "%.*s%s", folder, reading->file, file);
-  if (length >= VSC_PATH)
-    return vsc_reading_fail(reading, "\"%.60s...\": a file name of more than %d bytes; shorten it",
-                            file, VSC_PATH - 1);
-  return VSC_OK;
-}
 
 vsc_status vsc_selector_finish(vsc_reading *reading, const vsc_slot *slots, void *target)
 {

@@ -16,12 +16,6 @@
 #define SAME_TIME 1e-12   // part of a time by which multiples of intervals differ by rounding
 enum { LONGEST_DIRECTORY = VSC_PATH - VSC_NAME - 112 };  // bytes; a slash and a file's name come behind it
 
-void vsc_session_path(const vsc_session *session, const char *what, char path[VSC_PATH])
-{
-  const char *name = what[0] == '.' ? session->name : "";
-  snprintf(path, VSC_PATH, "%.*s/%.*s%.100s", LONGEST_DIRECTORY, session->options->directory, VSC_NAME, name, what);
-}
-
 static void name_of_scene(const char *file, char name[VSC_NAME])
 {
   const char *slash = strrchr(file, '/');
