@@ -108,8 +108,10 @@ void vsc_session_keep_good(vsc_session *session)
 void vsc_session_go_back(vsc_session *session)
 {
   const size_t count = 4 * session->problem->model->node_count;
+  const double rows = session->watch->rows;
   double *arrays[4];
   list_arrays(session, arrays);
   put_scalars(session, session->good);
+  session->watch->rows = rows;  // what is written stays written
   for (size_t k = 0; k < 4; k++) memcpy(arrays[k], session->good + SCALARS + k * count, count * sizeof(double));
 }

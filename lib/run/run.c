@@ -14,7 +14,6 @@
 #define LONGEST_LOOK 1.0  // ms between two looks of the energy ledger
 #define CLOSER 16         // looks in place of one that did not balance
 #define SAME_TIME 1e-12   // part of a time by which multiples of intervals differ by rounding
-enum { LONGEST_DIRECTORY = VSC_PATH - VSC_NAME - 112 };  // bytes; a slash and a file's name come behind it
 
 static void name_of_scene(const char *file, char name[VSC_NAME])
 {
@@ -34,9 +33,9 @@ static vsc_status make_directory(const char *path, vsc_error *error)
 static vsc_status make_directories(const vsc_session *session, vsc_error *error)
 {
   char path[VSC_PATH];
-  if (strlen(session->options->directory) > LONGEST_DIRECTORY)
+  if (strlen(session->options->directory) > VSC_LONGEST_DIRECTORY)
     return vsc_fail(error, VSC_INPUT, "%.60s...: a folder name of more than %d bytes; choose a shorter one with -o",
-                    session->options->directory, LONGEST_DIRECTORY);
+                    session->options->directory, VSC_LONGEST_DIRECTORY);
   const vsc_status status = make_directory(session->options->directory, error);
   vsc_session_path(session, "frames", path);
   return status == VSC_OK ? make_directory(path, error) : status;

@@ -7,6 +7,9 @@
 #include "run/run.h"
 #include "run/watch.h"
 
+// Bytes of the name of a run's folder; a slash and a file's name come behind it.
+enum { VSC_LONGEST_DIRECTORY = VSC_PATH - VSC_NAME - 112 };
+
 typedef struct vsc_session {
   vsc_problem *problem;
   const vsc_run_options *options;
