@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Arrays, and what happens when memory is short at every single allocation of a model and its state.
+// Arrays, and what happens when memory is short at every single allocation of a model and its
+// state.
 #include "base/mem.h"
 
 #include <string.h>
@@ -64,10 +65,11 @@ static void test_failing_comes_once_and_after_its_count(void **state)
   for (int i = 0; i < 4; i++) vsc_free(made[i]);
 }
 
-// Everything that allocates: an active material, arrays of amplitude and delay, node-averaged volume, a
-// surface under pressure, a support, weight.
-static vsc_definition full_definition(vsc_material_def *material, vsc_selector *face, vsc_selector *set,
-                                      vsc_support_def *support, vsc_pressure_def *pressure)
+// Everything that allocates: an active material, arrays of amplitude and delay, node-averaged
+// volume, a surface under pressure, a support, weight.
+static vsc_definition full_definition(vsc_material_def *material, vsc_selector *face,
+                                      vsc_selector *set, vsc_support_def *support,
+                                      vsc_pressure_def *pressure)
 {
   *material = vsc_default_material();
   for (int a = 0; a < 3; a++) material->axial[a] = material->angular[a] = material->damping[a] = 10;
@@ -78,10 +80,13 @@ static vsc_definition full_definition(vsc_material_def *material, vsc_selector *
   material->active.curve = vsc_default_curve(VSC_CURVE_HALF_SINE);
   vsc_copy_name(material->active.amplitude_array, "region");
   vsc_copy_name(material->active.delay_array, "region");
-  *face = (vsc_selector){.name = "top", .kind = VSC_SELECT_NODE_ARRAY, .array = "z1", .low = 1, .high = 1};
-  *set = (vsc_selector){.name = "bottom", .kind = VSC_SELECT_NODE_ARRAY, .array = "z0", .low = 1, .high = 1};
+  *face = (vsc_selector){
+      .name = "top", .kind = VSC_SELECT_NODE_ARRAY, .array = "z1", .low = 1, .high = 1};
+  *set = (vsc_selector){
+      .name = "bottom", .kind = VSC_SELECT_NODE_ARRAY, .array = "z0", .low = 1, .high = 1};
   *support = (vsc_support_def){.set = "bottom", .held = {1, 1, 1}};
-  *pressure = (vsc_pressure_def){.surface = "top", .peak = 1, .curve = vsc_default_curve(VSC_CURVE_RAMP)};
+  *pressure =
+      (vsc_pressure_def){.surface = "top", .peak = 1, .curve = vsc_default_curve(VSC_CURVE_RAMP)};
   vsc_definition definition = vsc_default_definition();
   definition.material_count = definition.surface_count = definition.set_count = 1;
   definition.support_count = definition.pressure_count = 1;
@@ -96,8 +101,8 @@ static vsc_definition full_definition(vsc_material_def *material, vsc_selector *
 }
 
 // Model, state and ledger; what was made is released again.
-static vsc_status make_all(const vsc_mesh *mesh, const vsc_axes *axes, const vsc_definition *definition,
-                           vsc_error *error)
+static vsc_status make_all(const vsc_mesh *mesh, const vsc_axes *axes,
+                           const vsc_definition *definition, vsc_error *error)
 {
   vsc_model *model = NULL;
   vsc_state *state = NULL;

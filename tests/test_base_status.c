@@ -58,8 +58,10 @@ static void test_memory(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_message_and_status), cmocka_unit_test(test_exit_codes),
-      cmocka_unit_test(test_long_text_is_cut),   cmocka_unit_test(test_control_characters_become_spaces),
+      cmocka_unit_test(test_message_and_status),
+      cmocka_unit_test(test_exit_codes),
+      cmocka_unit_test(test_long_text_is_cut),
+      cmocka_unit_test(test_control_characters_become_spaces),
       cmocka_unit_test(test_memory),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

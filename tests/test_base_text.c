@@ -11,11 +11,11 @@ static void test_distances(void **state)
   (void)state;
   assert_int_equal(vsc_edit_distance("", ""), 0);
   assert_int_equal(vsc_edit_distance("axial", "axial"), 0);
-  assert_int_equal(vsc_edit_distance("AXIAL", "axial"), 0);    // without case
-  assert_int_equal(vsc_edit_distance("", "abc"), 3);           // insertions
-  assert_int_equal(vsc_edit_distance("abc", ""), 3);           // deletions
-  assert_int_equal(vsc_edit_distance("axial", "axiel"), 1);    // a replacement
-  assert_int_equal(vsc_edit_distance("fibre", "fiber"), 2);    // an exchange is two
+  assert_int_equal(vsc_edit_distance("AXIAL", "axial"), 0);  // without case
+  assert_int_equal(vsc_edit_distance("", "abc"), 3);         // insertions
+  assert_int_equal(vsc_edit_distance("abc", ""), 3);         // deletions
+  assert_int_equal(vsc_edit_distance("axial", "axiel"), 1);  // a replacement
+  assert_int_equal(vsc_edit_distance("fibre", "fiber"), 2);  // an exchange is two
   assert_int_equal(vsc_edit_distance("presure", "pressures"), 2);
 }
 
@@ -31,7 +31,8 @@ static void test_distance_is_a_metric(void **state)
       assert_int_equal(d, vsc_edit_distance(words[j], words[i]));
       assert_true((d == 0) == (i == j));
       for (int k = 0; k < WORDS; k++)
-        assert_true(d <= vsc_edit_distance(words[i], words[k]) + vsc_edit_distance(words[k], words[j]));
+        assert_true(d <=
+                    vsc_edit_distance(words[i], words[k]) + vsc_edit_distance(words[k], words[j]));
     }
 }
 
@@ -77,8 +78,8 @@ static void test_names_are_cut(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_distances),       cmocka_unit_test(test_distance_is_a_metric),
-      cmocka_unit_test(test_nearest),         cmocka_unit_test(test_very_long_words),
+      cmocka_unit_test(test_distances),     cmocka_unit_test(test_distance_is_a_metric),
+      cmocka_unit_test(test_nearest),       cmocka_unit_test(test_very_long_words),
       cmocka_unit_test(test_names_are_cut),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

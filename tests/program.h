@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Running the program in a folder of its own, and looking at what it says and leaves.
+#ifndef VSC_TESTS_PROGRAM_H
+#define VSC_TESTS_PROGRAM_H
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "close.h"
+
+enum { PROGRAM_TEXT = 1 << 20 };
+
+static char program_folder[] = "/tmp/viscera-test-XXXXXX";
+static char said[PROGRAM_TEXT], complained[PROGRAM_TEXT];  // stdout and stderr of the last run
+
+// The path of a file in the folder; valid until the fourth next call.
+static inline const char *in_folder(const char *name)
+{
+  static char paths[4][512];
+  static int next;
+  char *path = paths[next++ % 4];
+  snprintf(path, sizeof paths[0], "%s/%s", program_folder, name);
+  return path;
+}
+
+// Reads a file of the folder into `text`; returns its length. A missing file is an empty text.
+static inline size_t load_text(const char *name, char *text, size_t size)
+{
+  FILE *stream = fopen(in_folder(name), "rb");
+  const size_t length = stream != NULL ? fread(text, 1, size - 1, stream) : 0;
+  text[length] = '\0';
+  if (stream != NULL) fclose(stream);
+  return length;
+}
+
+static inline void save_text(const char *name, const char *text)
+{
+  FILE *stream = fopen(in_folder(name), "wb");
+  if (stream == NULL || fputs(text, stream) < 0 || fclose(stream) != 0) fail_msg("%s", name);
+}
+
+// Runs a shell command in the folder, the program being $V; returns its exit code, -1 after a
+// signal.
+static inline int shell(const char *command)
+{
+  char line[4096];
+  snprintf(line, sizeof line, "cd %s && V='%s' && (%s) >out.txt 2>err.txt", program_folder,
+           VSC_PROGRAM, command);
+  const int status = system(line);
+  load_text("out.txt", said, sizeof said);
+  load_text("err.txt", complained, sizeof complained);
+  return WIFEXITED(status) && WEXITSTATUS(status) < 128 ? WEXITSTATUS(status) : -1;
+}
+
+// A command that must succeed.
+static inline void must(const char *command)
+{
+  const int code = shell(command);
+  if (code != 0) fail_msg("%s: exit code %d: %s", command, code, complained);
+}
+
+static inline int line_count(const char *text)
+{
+  int lines = 0;
+  for (; *text != '\0'; text++) lines += *text == '\n';
+  return lines;
+}
+
+#define assert_holds(text, part) holds_at((text), (part), __FILE__, __LINE__)
+
+static inline void holds_at(const char *text, const char *part, const char *file, int line)
+{
+  if (strstr(text, part) != NULL) return;
+  print_error("expected '%s' in '%s'\n", part, text);
+  _fail(file, line);
+}
+
+static inline void same_files_at(const char *a, const char *b, const char *file, int line)
+{
+  static char first[PROGRAM_TEXT], second[PROGRAM_TEXT];
+  const size_t length = load_text(a, first, sizeof first),
+               other = load_text(b, second, sizeof second);
+  if (length > 0 && length == other && memcmp(first, second, length) == 0) return;
+  print_error("%s and %s differ\n", a, b);
+  _fail(file, line);
+}
+
+// Two files of the folder have the same bytes and are not empty.
+#define assert_same_files(a, b) same_files_at((a), (b), __FILE__, __LINE__)
+
+static inline int program_open(void **state)
+{
+  (void)state;
+  return mkdtemp(program_folder) == NULL;
+}
+
+static inline int program_close(void **state)
+{
+  (void)state;
+  char command[128];
+  snprintf(command, sizeof command, "rm -rf %s", program_folder);
+  return system(command);
+}
+
+#endif

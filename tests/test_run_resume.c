@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The same bits however a run is cut and with any number of threads; what a resumed and a failed
+// run leave.
+#include "block_scene.h"
+#include "io/checkpoint.h"
+#include "io/pvd.h"
+
+// A text value of a run's summary.json, without its quotes; valid until the fourth next call.
+static const char *summary(const char *run, const char *key)
+{
+  static char text[PROGRAM_TEXT], values[4][1024];
+  static int next;
+  char name[64], quoted[80], *value = values[next++ % 4];
+  snprintf(name, sizeof name, "%s/summary.json", run);
+  load_text(name, text, sizeof text);
+  snprintf(quoted, sizeof quoted, "\"%s\": ", key);
+  const char *found = strstr(text, quoted);
+  if (found == NULL) fail_msg("%s: no %s in '%s'", name, key, text);
+  found += strlen(quoted);
+  found += *found == '"';
+  snprintf(value, sizeof values[0], "%.*s", (int)strcspn(found, "\",\n"), found);
+  return value;
+}
+
+// The same bits in positions, velocities, accelerations, ledger, extrema: all of the checkpoint.
+static void assert_same_checkpoints(const char *run, const char *other)
+{
+  static const struct {
+    const char *name;
+    size_t rows, columns;
+  } parts[] = {{"position", 175, 4},      {"velocity", 175, 4}, {"acceleration", 175, 4},
+               {"stiffest_mode", 175, 4}, {"works", 5, 1},      {"time_and_steps", 2, 1},
+               {"step_limit", 6, 1},      {"watch", 4, 1},      {"signal_extrema", 192, 1}};
+  const char *const runs[2] = {run, other};
+  for (size_t p = 0; p < sizeof parts / sizeof parts[0]; p++) {
+    double values[2][175 * 4] = {{0}};
+    for (int r = 0; r < 2; r++) {
+      char name[64];
+      vsc_error error;
+      snprintf(name, sizeof name, "%s/checkpoint.h5", runs[r]);
+      const vsc_block block = {parts[p].name, "", parts[p].rows, parts[p].columns, values[r]};
+      const uint64_t hash = strtoull(summary(runs[r], "model_hash"), NULL, 16);
+      if (vsc_checkpoint_read(in_folder(name), hash, 1, &block, &error) != VSC_OK)
+        fail_msg("%s", error.text);
+    }
+    if (memcmp(values[0], values[1], sizeof values[0]) != 0)
+      fail_msg("%s of %s and %s differ", parts[p].name, run, other);
+  }
+}
+
+static void assert_same_frames(const char *run, const char *other)
+{
+  char command[256];
+  snprintf(command, sizeof command, "diff -r %s/frames %s/frames", run, other);
+  must(command);
+}
+
+// Two runs that have come to the same end.
+static void assert_same_runs(const char *run, const char *other)
+{
+  char name[64], second[64];
+  assert_string_equal(summary(run, "state_hash"), summary(other, "state_hash"));
+  assert_string_equal(summary(run, "rows"), summary(other, "rows"));
+  assert_same_checkpoints(run, other);
+  snprintf(name, sizeof name, "%s/signals.csv", run);
+  snprintf(second, sizeof second, "%s/signals.csv", other);
+  assert_same_files(name, second);
+  snprintf(name, sizeof name, "%s/block.pvd", run);
+  snprintf(second, sizeof second, "%s/block.pvd", other);
+  assert_same_files(name, second);
+  assert_same_frames(run, other);
+}
+
+// The runs that the others are compared with: one thread, in one go.
+static int open_with_runs(void **state)
+{
+  return block_open(state) != 0 || shell("$V run block.yaml -q -t 1 -o whole") != 0 ||
+         shell("$V run block.yaml -q -t 1 -o marked --set 'output.checkpoint=5 ms'") != 0;
+}
+
+static void test_threads(void **state)
+{
+  (void)state;
+  must("$V run block.yaml -o two -t 2");
+  assert_same_runs("two", "whole");
+  must("$V run block.yaml -o five -t 5");
+  assert_same_runs("five", "whole");
+}
+
+static void test_cut_in_two(void **state)
+{
+  (void)state;
+  must("$V run block.yaml -o cut -t 2 --stop '8 ms'");
+  assert_string_equal(summary("cut", "outcome"), "stopped");
+  assert_string_equal(summary("cut", "time_s"), "0.008");
+  assert_string_equal(summary("cut", "rows"), "9");
+  must("$V run block.yaml -o cut -t 1 --resume");
+  assert_string_equal(summary("cut", "outcome"), "finished");
+  assert_same_runs("cut", "whole");
+}
+
+// Cut at times that are no event, several times, once more at the end.
+static void test_cut_anywhere(void **state)
+{
+  (void)state;
+  must("$V run block.yaml -o pieces --stop '0.37 ms'");
+  must("$V run block.yaml -o pieces --resume --stop '7.77 ms'");
+  must("$V run block.yaml -o pieces --resume --stop '7.78 ms'");
+  must("$V run block.yaml -o pieces --resume --stop '3 ms'");  // already behind it: nothing to do
+  must("$V run block.yaml -o pieces --resume --stop '19.5 ms'");
+  must("$V run block.yaml -o pieces --resume");
+  must("$V run block.yaml -o pieces --resume");
+  assert_same_runs("pieces", "whole");
+}
+
+// As after a crash: frames and rows lie behind the last checkpoint.
+static void test_older_checkpoint(void **state)
+{
+  (void)state;
+  must(
+      "cp -r marked crashed && $V run block.yaml -q -o early --set 'output.checkpoint=5 ms' --stop "
+      "'10 ms'");
+  must(
+      "cp early/checkpoint.h5 crashed/ && $V run block.yaml -o crashed --set 'output.checkpoint=5 "
+      "ms' --resume");
+  assert_same_runs("crashed", "marked");
+}
+
+static size_t series_length(const char *file)
+{
+  vsc_pvd *series = NULL;
+  assert_int_equal(vsc_pvd_open(in_folder(file), HUGE_VAL, &series, NULL), VSC_OK);
+  const size_t count = vsc_pvd_count(series);
+  for (size_t f = 0; f < count; f++)
+    assert_close(vsc_pvd_time(series, f), 0.002 * (double)f, 1e-12, 0);
+  vsc_pvd_free(series);
+  return count;
+}
+
+// The series, the frames and the rows are trimmed even when the resumed run stops before its first
+// frame.
+static void test_trimmed_at_once(void **state)
+{
+  (void)state;
+  must(
+      "cp -r marked short && cp early/checkpoint.h5 short/ && "
+      "$V run block.yaml -o short --set 'output.checkpoint=5 ms' --resume --stop '11 ms'");
+  assert_int_equal(series_length("short/block.pvd"), 6);
+  must("ls short/frames");
+  assert_int_equal(line_count(said), 6);
+  static char rows[PROGRAM_TEXT];
+  load_text("short/signals.csv", rows, sizeof rows);
+  assert_int_equal(line_count(rows), 1 + 12);
+  must("$V run block.yaml -o short --set 'output.checkpoint=5 ms' --resume");
+  assert_same_runs("short", "marked");
+}
+
+// Without the files that a resumed run continues, it still goes on.
+static void test_lost_files(void **state)
+{
+  (void)state;
+  must("mkdir lost && cp early/checkpoint.h5 lost/");
+  must("$V run block.yaml -o lost --set 'output.checkpoint=5 ms' --resume");
+  assert_string_equal(summary("lost", "state_hash"), summary("marked", "state_hash"));
+  static char rows[PROGRAM_TEXT];
+  load_text("lost/signals.csv", rows, sizeof rows);
+  assert_int_equal(line_count(rows), 1 + 10);  // header and 11 ms to 20 ms
+  assert_holds(rows, "time [s],step [ms]");
+}
+
+// Another modulus, support, load, fibre or step is another model.
+static void test_changed_scene_is_refused(void **state)
+{
+  (void)state;
+  static const char *const changes[] = {"--set 'materials[0].axial.f=21 kPa'",
+                                        "--set 'materials[0].volume_modulus=501 kPa'",
+                                        "--set 'materials[0].active.tension=9 kPa'",
+                                        "--set 'supports[0].held=[x, y]'",
+                                        "--set 'pressures[0].peak=2 kPa'",
+                                        "--set 'gravity=[0 m/s2, 0 m/s2, -9.81 m/s2]'",
+                                        "--set 'time.safety=0.7'",
+                                        "--set volume=element",
+                                        "--set fibers.source=diagonal",
+                                        "--set 'materials[0].damping.n=6 Pa s'",
+                                        "--set 'materials[0].density=1 g/cm3'"};
+  must("cp -r early kept");
+  for (size_t k = 0; k < sizeof changes / sizeof changes[0]; k++) {
+    char command[256];
+    snprintf(command, sizeof command, "$V run block.yaml -q -o early --resume %s", changes[k]);
+    assert_int_equal(shell(command), 2);
+    assert_int_equal(line_count(complained), 1);
+    assert_holds(complained, "checkpoint.h5");
+  }
+  must("diff -r early kept");  // nothing was touched
+}
+
+// What does not change the motion may change: outputs.
+static void test_other_outputs_are_no_other_model(void **state)
+{
+  (void)state;
+  must(
+      "cp -r early more && $V run block.yaml -o more --resume --set 'output.arrays=[displacement]' "
+      "--set 'output.checkpoint=5 ms'");
+  assert_string_equal(summary("more", "state_hash"), summary("marked", "state_hash"));
+}
+
+static void test_no_checkpoint(void **state)
+{
+  (void)state;
+  assert_int_equal(shell("$V run block.yaml -o nothing --resume"), 2);
+  assert_int_equal(line_count(complained), 1);
+  assert_int_equal(shell("ls nothing"), 2);  // and no folder is made
+  must("cp -r early damaged && truncate -s 3000 damaged/checkpoint.h5");
+  assert_int_equal(shell("$V run block.yaml -q -o damaged --resume"), 2);
+  assert_int_equal(line_count(complained), 1);
+}
+
+// A new run where an older one was leaves nothing of that.
+static void test_new_run_in_an_old_folder(void **state)
+{
+  (void)state;
+  must("cp -r whole reused && $V run block.yaml -o reused --stop '3 ms'");
+  assert_int_equal(series_length("reused/block.pvd"), 2);
+  must("ls reused/frames");
+  assert_int_equal(line_count(said), 2);
+  // killed before its first checkpoint: the older one's must not be found
+  must(
+      "cp -r whole killed && (timeout -s KILL 0.3 $V run block.yaml -q -o killed --set "
+      "'output={frames: 0.001 ms, "
+      "signals: 1 ms}' || true)");
+  assert_int_equal(shell("$V run block.yaml -q -o killed --resume"), 2);
+}
+
+// A pressure that crushes the block.
+static void test_failing_run(void **state)
+{
+  (void)state;
+  static const char failing[] = "$V run block.yaml -q -o failed --set 'pressures[0].peak=100 kPa'";
+  assert_int_equal(shell(failing), 3);
+  assert_int_equal(line_count(complained), 1);
+  assert_holds(complained, " ms ");
+  assert_string_equal(summary("failed", "outcome"), "failed");
+  assert_true(strlen(summary("failed", "reason")) > 20);
+  assert_holds(complained, summary("failed", "reason"));
+  const double time = strtod(summary("failed", "time_s"), NULL);
+  assert_true(time > 0 && time < 0.02);
+  // its last frame is the last good state, at the time of the summary, with sound numbers
+  vsc_pvd *series = NULL;
+  assert_int_equal(vsc_pvd_open(in_folder("failed/block.pvd"), HUGE_VAL, &series, NULL), VSC_OK);
+  const size_t last = vsc_pvd_count(series) - 1;
+  assert_close(vsc_pvd_time(series, last), time, 1e-9, 0);
+  char name[128];
+  vsc_mesh *frame = NULL;
+  snprintf(name, sizeof name, "failed/%s", vsc_pvd_frame(series, last));
+  assert_int_equal(vsc_vtk_read_mesh(in_folder(name), 1, &frame, NULL), VSC_OK);
+  const vsc_array *moved = vsc_arrays_find(&frame->node_data, "displacement");
+  for (size_t k = 0; k < 3 * frame->node_count; k++) assert_true(fabs(moved->values[k]) < 1e3);
+  vsc_mesh_free(frame);
+  vsc_pvd_free(series);
+  // its checkpoint is whole: going on fails in the same way, at the same time
+  char reason[1024];
+  snprintf(reason, sizeof reason, "%s", summary("failed", "reason"));
+  must(
+      "cp failed/signals.csv failed/block.pvd . && mv block.pvd failed.pvd && mv signals.csv "
+      "failed.csv");
+  snprintf(name, sizeof name, "%s --resume", failing);
+  assert_int_equal(shell(name), 3);
+  assert_string_equal(summary("failed", "reason"), reason);
+  assert_same_files("failed/signals.csv", "failed.csv");
+  assert_same_files("failed/block.pvd", "failed.pvd");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_threads),
+      cmocka_unit_test(test_cut_in_two),
+      cmocka_unit_test(test_cut_anywhere),
+      cmocka_unit_test(test_older_checkpoint),
+      cmocka_unit_test(test_trimmed_at_once),
+      cmocka_unit_test(test_lost_files),
+      cmocka_unit_test(test_changed_scene_is_refused),
+      cmocka_unit_test(test_other_outputs_are_no_other_model),
+      cmocka_unit_test(test_no_checkpoint),
+      cmocka_unit_test(test_new_run_in_an_old_folder),
+      cmocka_unit_test(test_failing_run),
+  };
+  return cmocka_run_group_tests(tests, open_with_runs, program_close);
+}
