@@ -165,6 +165,7 @@ static void draw_graph(const graph *g, const vsc_signals *signals, const double 
   }
   plcol0(INK);
   plwidth(1);
+  plsyax(8, 0);  // small numbers are written out, without a power of ten above the axis
   plbox(last ? "bcfnst" : "bcst", 0, 0, "bcfnstv", 0, 0);
   plmtex("t", 0.9, 0.0, 0.0, g->title);
   if (last) plmtex("b", 3.0, 0.5, 0.5, "Time [s]");
