@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What `viscera check` says about a scene, and which warnings it has for which scenes.
+#include "block_scene.h"
+
+// The line of the last output that begins with `word`; valid until the next call.
+static const char *line_of(const char *word)
+{
+  static char line[1024];
+  char start[64];
+  snprintf(start, sizeof start, "\n%s ", word);
+  const char *found = strncmp(said, start + 1, strlen(start) - 1) == 0 ? said : strstr(said, start);
+  if (found == NULL) fail_msg("no line '%s' in '%s'", word, said);
+  found += *found == '\n';
+  snprintf(line, sizeof line, "%.*s", (int)strcspn(found, "\n"), found);
+  return line;
+}
+
+static int warnings(void)
+{
+  int count = 0;
+  for (const char *at = said; (at = strstr(at, "\nwarning ")) != NULL; at++) count++;
+  return count;
+}
+
+// Checks the block scene with `options`; there must be one warning, with `part` in it.
+static void assert_warns(const char *options, const char *part)
+{
+  char command[512];
+  snprintf(command, sizeof command, "$V check block.yaml -t 1 %s", options);
+  must(command);
+  assert_string_equal(complained, "");
+  if (warnings() != 1) fail_msg("%s: %d warnings in '%s'", options, warnings(), said);
+  assert_holds(line_of("warning"), part);
+  assert_null(strstr(said, "\nwarnings   none"));
+}
+
+// The scene that ships: every line, with the counts of data/README.md, and nothing to warn of.
+static void test_the_shipped_beat(void **state)
+{
+  (void)state;
+  must("$V check " VSC_SOURCE_DIR "/data/beat.yaml -t 1");
+  assert_string_equal(complained, "");
+  assert_true(line_count(said) >= 13 && line_count(said) <= 25);
+  assert_holds(line_of("scene"), "/data/beat.yaml");
+  assert_holds(line_of("mesh"), "lv.vtu: 2116 nodes, 7680 tets");
+  assert_holds(line_of("mesh"), "1 unit = 1 mm");
+  assert_holds(line_of("size"), "70.96 x 70.96 x 93 mm");
+  assert_holds(line_of("size"), "tissue 134 ml, 142");
+  assert_holds(line_of("quality"), "0 poor");
+  assert_holds(line_of("worst"), "element ");
+  assert_holds(line_of("surface"), "endo: 1024 triangles");
+  assert_holds(line_of("surface"), "open, capped, a cavity of 133");
+  assert_holds(said, "closed, surrounds 134 ml");
+  assert_holds(line_of("supports"), "base (128 nodes) held in z");
+  assert_holds(line_of("fibres"),
+               "7680 of 7680 elements (100.0 %), 0 filled from neighbours, 0 passive");
+  assert_holds(line_of("angles"), "azimuth");
+  assert_holds(line_of("material"), "myocardium: 7680 elements");
+  assert_holds(line_of("active"), "tension up to");
+  assert_holds(line_of("active"), "period 800 ms");
+  assert_holds(line_of("terms"),
+               "axial damping; volume of node groups and of each tet; active tension");
+  assert_holds(line_of("terms"), "pressure on endo up to");
+  assert_holds(line_of("step"), "(automatic)");
+  assert_holds(line_of("step"), "limited most by element");
+  assert_holds(line_of("cost"), "1600 ms = about");
+  assert_holds(line_of("cost"), "on 1 thread (");
+  assert_holds(line_of("cost"), "MB of memory; 81 frames");
+  assert_string_equal(line_of("warnings"), "warnings   none");
+  assert_int_equal(warnings(), 0);
+}
+
+// The numbers of the step and of the cost are those of the run.
+static void test_step_and_cost_are_those_of_the_run(void **state)
+{
+  (void)state;
+  double step, steps, frames, disk;
+  must("$V check block.yaml -t 1");
+  assert_int_equal(warnings(), 0);
+  assert_int_equal(sscanf(line_of("step"), "step %lf ms", &step), 1);
+  assert_int_equal(sscanf(line_of("cost"), "cost 20 ms = about %lf steps", &steps), 1);
+  assert_close(steps, 20 / step, 1e-3, 0.5);
+  assert_int_equal(
+      sscanf(strstr(line_of("cost"), "memory; ") + 8, "%lf frames, about %lf", &frames, &disk), 2);
+  assert_close(frames, 11, 0, 0);
+  must("$V run block.yaml -t 1 -o r && cat r/frames/* | wc -c");
+  double bytes = 0, done = 0;
+  const char *last = strchr(said, '\n');
+  assert_int_equal(sscanf(last, "%lf", &bytes), 1);
+  assert_int_equal(sscanf(strstr(said, " ms in "), " ms in %lf steps", &done), 1);
+  assert_close(done, steps, 0.5, 0);  // contraction makes steps shorter
+  assert_close(1e-6 * bytes, disk, 0.5, 0);
+}
+
+static void test_given_step(void **state)
+{
+  (void)state;
+  must("$V check block.yaml --set 'time.step=0.01 ms'");
+  assert_holds(line_of("step"), "step       0.01 ms (given)");
+  assert_holds(line_of("cost"), "about 2000 steps");
+  assert_int_equal(shell("$V check block.yaml --set 'time.step=1 ms'"), 2);
+  assert_int_equal(line_count(complained), 1);
+  assert_holds(complained, "1 ms is above the stable step of 0.0");
+}
+
+static void test_warnings_about_materials(void **state)
+{
+  (void)state;
+  assert_warns("--set volume=element", "linear tets lock");
+  assert_warns("--set 'materials[0].stabilization=0 kPa'",
+               "stabilization to about the shear modulus (10 kPa)");
+  assert_warns("--set 'materials[0].volume_modulus=15 kPa'", "below the stiffest axial modulus");
+  assert_warns("--set 'materials[0].damping={f: 0 Pa s, s: 0 Pa s, n: 0 Pa s}'",
+               "vibrations never die away");
+  assert_warns(
+      "--set 'materials[1].name=ghost' --set 'materials[1].regions=[9]' "
+      "--set 'materials[1].axial={f: 1 kPa, s: 1 kPa, n: 1 kPa}' --set 'materials[1].angular={fs: "
+      "1 kPa, "
+      "sn: 1 kPa, nf: 1 kPa}' --set 'materials[1].volume_modulus=50 kPa' "
+      "--set 'materials[1].stabilization=1 kPa'",
+      "ghost: no element has its regions");
+  // element-wise volume with a low modulus does not lock
+  must("$V check block.yaml --set volume=element --set 'materials[0].volume_modulus=150 kPa'");
+  assert_int_equal(warnings(), 0);
+}
+
+static void test_warnings_about_the_setting(void **state)
+{
+  (void)state;
+  // the block's 20 mm are read as metres, or as micrometres
+  assert_warns("--set mesh.unit=m", "is mesh.unit right?");
+  assert_warns("--set mesh.unit=um", "is mesh.unit right?");
+  assert_warns("--set 'supports=[]'", "nothing is held");
+  assert_warns(
+      "--set 'supports=[]' --set 'pressures=[]' --set 'gravity=[0 m/s2, 0 m/s2, -9.81 m/s2]'",
+      "nothing is held");
+  assert_warns("--set 'pressures=[]' --set 'materials[0].active.kind=none'", "nothing will move");
+  must("$V check block.yaml --set 'supports=[]' --set 'pressures=[]'");  // a free muscle carries
+                                                                         // nothing away
+  assert_int_equal(warnings(), 0);
+}
+
+// The block with cell arrays: one direction everywhere; one for each element; the same with holes;
+// sheets at 45 degrees to the second.
+static void write_fibres(void)
+{
+  enum { SAME, TURNING, HOLES, SLANTED, KINDS };
+  vsc_mesh *mesh = block_for_scene();
+  double *v[KINDS];
+  for (int k = 0; k < KINDS; k++) v[k] = calloc(3 * mesh->tet_count, sizeof *v[k]);
+  for (size_t t = 0; t < mesh->tet_count; t++) {
+    const double angle[KINDS] = {0, (double)t, (double)t, (double)t + M_PI / 4};
+    for (int k = 0; k < KINDS; k++) {
+      if (k == HOLES && t % 20 == 0) continue;
+      v[k][3 * t] = k == HOLES && t % 20 == 10 ? NAN : cos(angle[k]);
+      v[k][3 * t + 1] = sin(angle[k]);
+    }
+  }
+  const vsc_vtk_array arrays[] = {
+      {"x0", 1, vsc_arrays_find(&mesh->node_data, "x0")->values, true, false},
+      {"x1", 1, vsc_arrays_find(&mesh->node_data, "x1")->values, true, false},
+      {"region", 1, vsc_arrays_find(&mesh->tet_data, "region")->values, false, true},
+      {"same", 3, v[SAME], false, false},
+      {"turning", 3, v[TURNING], false, false},
+      {"holes", 3, v[HOLES], false, false},
+      {"slanted", 3, v[SLANTED], false, false}};
+  assert_int_equal(vsc_vtk_write_mesh(in_folder("fibres.vtu"), mesh->node_count, mesh->nodes,
+                                      mesh->tet_count, mesh->tets, 0, NULL, 7, arrays, true, NULL),
+                   VSC_OK);
+  for (int k = 0; k < KINDS; k++) free(v[k]);
+  vsc_mesh_free(mesh);
+}
+
+static void test_warnings_about_fibres(void **state)
+{
+  (void)state;
+  write_fibres();
+  assert_warns("--set mesh.file=fibres.vtu --set fibers.arrays.fiber=same", "perhaps a dummy");
+  assert_warns("--set mesh.file=fibres.vtu --set fibers.arrays.fiber=holes",
+               "48 of 480 elements have no fibre and stay passive; `fill: true`");
+  assert_holds(line_of("fibres"),
+               "432 of 480 elements (90.0 %), 0 filled from neighbours, 48 passive");
+  assert_warns("--set mesh.file=fibres.vtu --set 'fibers.arrays={fiber: turning, sheet: slanted}'",
+               "up to 45 degrees off a right angle");
+  must(
+      "$V check block.yaml --set mesh.file=fibres.vtu --set fibers.arrays.fiber=holes --set "
+      "fibers.fill=true");
+  assert_int_equal(warnings(), 0);
+  assert_holds(line_of("fibres"),
+               "432 of 480 elements (90.0 %), 48 filled from neighbours, 0 passive");
+  // passive elements are nothing to warn of where nothing is active; constant by the scene's wish
+  // neither
+  must(
+      "$V check block.yaml --set mesh.file=fibres.vtu --set fibers.arrays.fiber=holes "
+      "--set 'materials[0].active.kind=none'");
+  assert_int_equal(warnings(), 0);
+  must("$V check block.yaml --set 'fibers={source: constant, constant: {fiber: [1, 0, 0]}}'");
+  assert_int_equal(warnings(), 0);
+}
+
+static void test_active_without_fibres_is_an_error(void **state)
+{
+  (void)state;
+  assert_int_equal(shell("$V check block.yaml --set fibers.source=none"), 2);
+  assert_int_equal(line_count(complained), 1);
+  assert_holds(complained, "no element has a fibre");
+}
+
+// The same warnings come before a run, unless it is to be quiet; the run goes on.
+static void test_run_warns_too(void **state)
+{
+  (void)state;
+  must("$V run block.yaml -o w --set volume=element --set 'time.end=1 ms'");
+  assert_int_equal(line_count(complained), 1);
+  assert_holds(complained, "viscera: warning: material muscle: ");
+  must("$V run block.yaml -o w -q --set volume=element --set 'time.end=1 ms'");
+  assert_string_equal(complained, "");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_the_shipped_beat),
+      cmocka_unit_test(test_step_and_cost_are_those_of_the_run),
+      cmocka_unit_test(test_given_step),
+      cmocka_unit_test(test_warnings_about_materials),
+      cmocka_unit_test(test_warnings_about_the_setting),
+      cmocka_unit_test(test_warnings_about_fibres),
+      cmocka_unit_test(test_active_without_fibres_is_an_error),
+      cmocka_unit_test(test_run_warns_too),
+  };
+  return cmocka_run_group_tests(tests, block_open, program_close);
+}
