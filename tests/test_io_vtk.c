@@ -152,31 +152,38 @@ static void legacy_files_are_read(void **state)
     }
 }
 
-// Binary legacy files are big-endian.
+// Fills `file` with a binary legacy file, big-endian, of one cell; returns its length. Its last 48
+// bytes are an array that repeats the points.
+static size_t binary_legacy(const uint32_t cell[5], char *file)
+{
+  const float points[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  uint32_t words[18];
+  memcpy(words, points, sizeof points);
+  memcpy(words + 12, cell, 5 * sizeof *cell);
+  words[17] = 10;
+  for (int i = 0; i < 18; i++) words[i] = __builtin_bswap32(words[i]);
+  const struct {
+    const char *title;
+    int first, count;
+  } parts[] = {{"# vtk DataFile Version 3.0\nx\nBINARY\nDATASET UNSTRUCTURED_GRID\n"
+                "POINTS 4 float\n", 0, 12},
+               {"\nCELLS 1 5\n", 12, 5},
+               {"\nCELL_TYPES 1\n", 17, 1},
+               {"\nPOINT_DATA 4\nVECTORS position float\n", 0, 12}};
+  size_t used = 0;
+  for (int p = 0; p < 4; p++) {
+    used += (size_t)sprintf(file + used, "%s", parts[p].title);
+    memcpy(file + used, words + parts[p].first, (size_t)parts[p].count * sizeof *words);
+    used += (size_t)parts[p].count * sizeof *words;
+  }
+  return used;
+}
+
 static void binary_legacy_files_are_read(void **state)
 {
   (void)state;
   char file[1000];
-  size_t used = (size_t)sprintf(file, "# vtk DataFile Version 3.0\nx\nBINARY\n"
-                                      "DATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n");
-  const float points[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
-  const uint32_t cell[5] = {4, 0, 1, 2, 3}, type = 10;
-  uint32_t words[18];
-  memcpy(words, points, sizeof points);
-  memcpy(words + 12, cell, sizeof cell);
-  words[17] = type;
-  for (int i = 0; i < 18; i++) words[i] = __builtin_bswap32(words[i]);
-  memcpy(file + used, words, 48);
-  used += 48;
-  used += (size_t)sprintf(file + used, "\nCELLS 1 5\n");
-  memcpy(file + used, words + 12, 20);
-  used += 20;
-  used += (size_t)sprintf(file + used, "\nCELL_TYPES 1\n");
-  memcpy(file + used, words + 17, 4);
-  used += 4;
-  used += (size_t)sprintf(file + used, "\nPOINT_DATA 4\nVECTORS position float\n");
-  memcpy(file + used, words, 48);
-  used += 48;
+  const size_t used = binary_legacy((uint32_t[]){4, 0, 1, 2, 3}, file);
   vsc_mesh *mesh = read_mesh(scratch_bytes("binary.vtk", file, used), 1);
   assert_close(vsc_mesh_tet_volume(mesh, 0), 1. / 6, 1e-14, 0);
   assert_memory_equal(array_of(&mesh->node_data, "position", 3)->values, mesh->nodes,
@@ -185,6 +192,21 @@ static void binary_legacy_files_are_read(void **state)
   for (size_t cut = used - 48; cut < used; cut++)
     assert_int_equal(vsc_vtk_read_mesh(scratch_bytes("cut.vtk", file, cut), 1, &mesh, NULL),
                      VSC_INPUT);
+}
+
+// A wrong list of cells, which VTK would follow beyond its end.
+static void binary_legacy_lists_are_checked(void **state)
+{
+  (void)state;
+  const uint32_t lists[][5] = {{5, 0, 1, 2, 3}, {3, 0, 1, 2, 3}, {UINT32_MAX, 0, 1, 2, 3}};
+  for (int i = 0; i < 3; i++) {
+    char file[1000];
+    vsc_mesh *mesh = NULL;
+    vsc_error error = {0};
+    const char *path = scratch_bytes("list.vtk", file, binary_legacy(lists[i], file));
+    assert_int_equal(vsc_vtk_read_mesh(path, 1, &mesh, &error), VSC_INPUT);
+    assert_non_null(strstr(error.text, "announced by CELLS 1 5"));
+  }
 }
 
 // Writes a box with triangles and arrays; the mesh and the numbers in `shade` are returned.
@@ -250,6 +272,37 @@ static void the_encoding_is_the_promised_one(void **state)
   assert_null(memmem(text, bytes, "Float64", 7));
   assert_null(memmem(text, bytes, "appended", 8));
   assert_int_not_equal(access(scratch("box.vtu.tmp"), F_OK), 0);
+  free(text);
+}
+
+// Infinite values in an array are the array's business, whoever wrote the file.
+static void infinite_values_are_read(void **state)
+{
+  (void)state;
+  const double nodes[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const double values[4] = {1, INFINITY, NAN, -INFINITY};
+  const uint32_t tet[4] = {0, 1, 2, 3};
+  const vsc_vtk_array array = {"a", 1, values, true, false};
+  assert_int_equal(vsc_vtk_write_mesh(scratch("inf.vtu"), 4, nodes, 1, tet, 0, NULL, 1, &array,
+                                      true, NULL), VSC_OK);
+  size_t bytes;
+  char *text = scratch_load(scratch("inf.vtu"), &bytes);
+  assert_null(strstr(text, "InformationKey"));
+  for (int foreign = 0; foreign < 2; foreign++) {
+    vsc_mesh *mesh = read_mesh(scratch("inf.vtu"), 1);
+    const double *back = array_of(&mesh->node_data, "a", 1)->values;
+    assert_true(back[1] == INFINITY && isnan(back[2]) && back[3] == -INFINITY);
+    vsc_mesh_free(mesh);
+    char *end = strstr(text, "</DataArray>");
+    assert_non_null(end);
+    char longer[8000];
+    const int length = snprintf(longer, sizeof longer,
+                                "%.*s<InformationKey name=\"L2_NORM_RANGE\" "
+                                "location=\"vtkDataArray\" length=\"2\"><Value index=\"0\">0"
+                                "</Value><Value index=\"1\">inf</Value></InformationKey>%s",
+                                (int)(end - text), text, end);
+    scratch_bytes("inf.vtu", longer, (size_t)length);
+  }
   free(text);
 }
 
@@ -394,7 +447,9 @@ int main(void)
     cmocka_unit_test(every_number_type_is_read),
     cmocka_unit_test(legacy_files_are_read),
     cmocka_unit_test(binary_legacy_files_are_read),
+    cmocka_unit_test(binary_legacy_lists_are_checked),
     cmocka_unit_test(what_is_written_reads_back),
+    cmocka_unit_test(infinite_values_are_read),
     cmocka_unit_test(the_encoding_is_the_promised_one),
     cmocka_unit_test(what_cannot_be_written_is_reported),
     cmocka_unit_test(images_read_back),

@@ -41,6 +41,7 @@
 
 extern "C" {
 #include "io/vtk.h"
+#include "io/vtk_legacy.h"
 }
 #include "io/vtk_quiet.hh"
 
@@ -137,6 +138,8 @@ vsc_status read_legacy(const char *file, int type, const char *wanted, const sil
                     quiet.said().c_str());
   if (found != type)
     return fail_kind(file, vtkDataObjectTypes::GetClassNameFromTypeId(found) + 3, wanted, error);
+  const vsc_status status = vsc_legacy_check_cells(file, error);
+  if (status != VSC_OK) return status;
   vtkNew<Reader> reader;
   reader->SetFileName(file);
   reader->ReadAllScalarsOn();

@@ -32,11 +32,11 @@ typedef struct vsc_vtk_array {
   bool integer;          // written as Int32
 } vsc_vtk_array;
 
-// Writes nodes, tets, triangles (behind the tets; 0 of them are fine) and arrays as .vtu: inline binary (Debian
-// 12's ParaView cannot read appended data since its expat was updated), zlib, UInt64 headers, Float32 or
-// (double_precision) Float64; to a temporary name in the same folder, renamed when complete. Arrays on
-// tets are 0 on the triangles. VSC_SYSTEM when the file cannot be written; what was there before
-// stays then.
+// Writes nodes, tets, triangles (behind the tets; 0 of them are fine) and arrays as .vtu: inline
+// binary (Debian 12's ParaView cannot read appended data since its expat was updated), zlib, UInt64
+// headers, Float32 or (double_precision) Float64; to a temporary name in the same folder, renamed
+// when complete. Arrays on tets are 0 on the triangles. VSC_SYSTEM when the file cannot be written;
+// what was there before stays then.
 vsc_status vsc_vtk_write_mesh(const char *file, size_t node_count, const double *nodes,
                               size_t tet_count, const uint32_t *tets, size_t triangle_count,
                               const uint32_t *triangles, size_t array_count,

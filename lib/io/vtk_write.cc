@@ -11,6 +11,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
+#include <vtkInformation.h>
 #include <vtkIntArray.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -94,6 +95,20 @@ void set_cells(vtkUnstructuredGrid *grid, size_t tet_count, const uint32_t *tets
   grid->SetCells(types, cells);
 }
 
+// VTK's writer without the ranges that it stores beside inline arrays: readers, ParaView's too,
+// stumble over those that are infinite, and need none.
+template <typename Writer> class plain : public Writer {
+public:
+  static plain *New() { VTK_STANDARD_NEW_BODY(plain); }
+
+protected:
+  void WriteInlineData(vtkAbstractArray *array, vtkIndent indent) override
+  {
+    Writer::WriteInlineData(array, indent);
+    if (array->HasInformation()) array->GetInformation()->Clear();
+  }
+};
+
 // Runs a VTK writer on a temporary file that replaces `file` when all is written.
 template <typename Writer>
 vsc_status write_file(const char *file, vtkDataObject *object, vsc_error *error)
@@ -104,10 +119,10 @@ vsc_status write_file(const char *file, vtkDataObject *object, vsc_error *error)
   silence quiet;
   bool written = false;
   try {
-    vtkNew<Writer> writer;
+    vtkNew<plain<Writer>> writer;
     writer->SetFileName(temporary);
     writer->SetInputDataObject(object);
-    // inline: Debian 12's ParaView, with its newest expat, cannot read appended data of any encoding
+    // Debian 12's ParaView, with its newest expat, cannot read appended data of any encoding.
     writer->SetDataModeToBinary();
     writer->SetHeaderTypeToUInt64();
     writer->SetCompressorTypeToZLib();

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/vtk_legacy.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/mem.h"
+
+// Walks over the numbers of the list.
+typedef struct reading {
+  const char *at, *end;
+  bool binary;
+} reading;
+
+// The next number of the list; false where there is none.
+static bool next_number(reading *list, int64_t *number)
+{
+  if (list->binary) {
+    if (list->end - list->at < 4) return false;
+    const unsigned char *b = (const unsigned char *)list->at;
+    *number = (int32_t)((uint32_t)b[0] << 24 | (uint32_t)b[1] << 16 | (uint32_t)b[2] << 8 | b[3]);
+    list->at += 4;
+    return true;
+  }
+  while (list->at < list->end && isspace((unsigned char)*list->at)) list->at++;
+  const bool negative = list->at < list->end && *list->at == '-';
+  if (negative) list->at++;
+  const char *first = list->at;
+  int64_t value = 0;
+  while (list->at < list->end && isdigit((unsigned char)*list->at) && value < INT64_MAX / 16)
+    value = 10 * value + (*list->at++ - '0');
+  *number = negative ? -value : value;
+  return list->at > first;
+}
+
+// Whether `count` lists (a length and that many numbers) fill `size` numbers.
+static bool fills(reading list, long long count, long long size)
+{
+  int64_t length, point;
+  for (; count > 0 && size > 0; count--) {
+    if (!next_number(&list, &length) || length < 0 || length >= size) return false;
+    size -= length + 1;
+    if (list.binary) {
+      if ((list.end - list.at) / 4 < length) return false;
+      list.at += 4 * length;
+    } else {
+      for (; length > 0; length--)
+        if (!next_number(&list, &point)) return false;
+    }
+  }
+  return count == 0 && size == 0;
+}
+
+// The start of the line after `at`, or `end`.
+static const char *next_line(const char *at, const char *end)
+{
+  const char *newline = memchr(at, '\n', (size_t)(end - at));
+  return newline != NULL ? newline + 1 : end;
+}
+
+static bool is_binary(const char *text, const char *end)
+{
+  const char *third = next_line(next_line(text, end), end);
+  return strncasecmp(third, "binary", 6) == 0;
+}
+
+// `text` ends with a zero at `end`. Every line that looks like the list's header is checked: in a
+// binary file chance may make one, but hardly with two numbers and nothing else behind them.
+static vsc_status check_text(const char *file, const char *text, const char *end, vsc_error *error)
+{
+  const bool binary = is_binary(text, end);
+  for (const char *line = text; line < end; line = next_line(line, end)) {
+    long long count, size;
+    int used = 0;
+    if (strncasecmp(line, "cells ", 6) != 0) continue;
+    if (sscanf(line + 6, "%lld %lld%n", &count, &size, &used) != 2) continue;
+    const char *first = line + 6 + used;
+    while (first < end && *first != '\n' && isspace((unsigned char)*first)) first++;
+    if (first < end && *first != '\n') continue;
+    first = next_line(first, end);
+    if (strncasecmp(first, "offsets", 7) == 0) return VSC_OK;
+    if (!fills((reading){first, end, binary}, count, size))
+      return vsc_fail(error, VSC_INPUT,
+                      "%s: the cells do not fill the list announced by CELLS %lld %lld (cells, "
+                      "numbers with the lengths): correct that line or write the file again",
+                      file, count, size);
+    return VSC_OK;
+  }
+  return VSC_OK;
+}
+
+static vsc_status check_stream(const char *file, FILE *stream, vsc_error *error)
+{
+  if (fseek(stream, 0, SEEK_END) != 0)
+    return vsc_fail(error, VSC_INPUT, "%s: is not a regular file", file);
+  const long size = ftell(stream);
+  rewind(stream);
+  char *text;
+  if (size < 0 || !VSC_NEW(text, (size_t)size + 1)) return vsc_fail_memory(error, "the mesh file");
+  vsc_status status;
+  if (fread(text, 1, (size_t)size, stream) == (size_t)size)
+    status = check_text(file, text, text + size, error);
+  else
+    status = vsc_fail(error, VSC_INPUT, "%s: cannot be read: %s", file, strerror(errno));
+  vsc_free(text);
+  return status;
+}
+
+vsc_status vsc_legacy_check_cells(const char *file, vsc_error *error)
+{
+  FILE *stream = fopen(file, "rb");
+  if (stream == NULL)
+    return vsc_fail(error, VSC_INPUT, "%s: cannot be opened: %s: check the name", file,
+                    strerror(errno));
+  const vsc_status status = check_stream(file, stream, error);
+  fclose(stream);
+  return status;
+}
