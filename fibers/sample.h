@@ -39,8 +39,8 @@ typedef struct vsc_fiber_report {
 // 8 voxels round each of 20 points of the tet, with their trilinear weights, which is the mean of
 // the trilinear interpolant. How: the weighted mean of f f^T is moved from the centroid of those
 // voxels to the centroid of the tet along the gradient of their weighted linear fit, by at most
-// twice their standard deviation. So it hardly matters that the mask cuts the neighbourhood of a tet
-// at the surface. A tet without any such voxel stays unknown.
+// twice their standard deviation. So it hardly matters that the mask cuts the neighbourhood of a
+// tet at the surface. A tet without any such voxel stays unknown.
 //
 // Origin, spacing and direction of the image are honoured; a left-handed direction too. Sets
 // `known` of all mesh->tet_count axes, the frames of those found (sheets by rule), and all of

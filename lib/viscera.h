@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// viscera as a library. A C program that has a mesh and fibre axes builds a model, steps a state and reads
-// fields back; VTK, HDF5 and YAML stay out of its sight. The README shows it in thirty lines.
+// viscera as a library. A C program that has a mesh and fibre axes builds a model, steps a state
+// and reads fields back; VTK, HDF5 and YAML stay out of its sight. The README shows it in thirty
+// lines.
 //
 //   vsc_mesh_from_arrays, vsc_vtk_read_mesh          a mesh
 //   vsc_axes_create, vsc_axes_complete, vsc_fibers_make   material axes

@@ -9,12 +9,14 @@
 
 static const char help[] =
     "Usage: viscera check [OPTION]... SCENE\n"
-    "Says what a scene would do before it is run: what was read, where the fibres came from, the time step\n"
+    "Says what a scene would do before it is run: what was read, where the fibres came from, the "
+    "time step\n"
     "and what limits it, what the run will cost, and what looks suspicious.\n\n"
     "  -s, --set KEY=VALUE  replace or add a value of the scene\n"
     "  -t, --threads N      number of threads (default: all processors)\n"
     "  -h, --help           this text\n\n"
-    "Exit codes: 0 the scene can be run (warnings or not), 2 it cannot, 3 no stable step, 4 system.\n\n"
+    "Exit codes: 0 the scene can be run (warnings or not), 2 it cannot, 3 no stable step, 4 "
+    "system.\n\n"
     "Examples:\n"
     "  viscera check data/beat.yaml\n"
     "  viscera check data/beat.yaml --set 'time.end=0.4 s'\n";
@@ -28,10 +30,14 @@ int vsc_verb_check(int argc, char **argv)
   vsc_scene_options scene = {0};
   for (int c; (c = getopt_long(argc, argv, "s:t:h", options, NULL)) != -1;) {
     int code = 0;
-    if (c == 's') code = vsc_keep_setting(&scene, optarg);
-    else if (c == 't') code = vsc_keep_threads(optarg);
-    else if (c == 'h') return fputs(help, stdout) < 0 ? 4 : 0;
-    else code = 2;
+    if (c == 's')
+      code = vsc_keep_setting(&scene, optarg);
+    else if (c == 't')
+      code = vsc_keep_threads(optarg);
+    else if (c == 'h')
+      return fputs(help, stdout) < 0 ? 4 : 0;
+    else
+      code = 2;
     if (code != 0) return code;
   }
   if (optind + 1 != argc) {

@@ -14,7 +14,8 @@
 
 static const char help[] =
     "Usage: viscera run [OPTION]... SCENE\n"
-    "Simulates a scene: frames for ParaView (NAME.pvd), signals.csv, summary.json, checkpoint.h5.\n\n"
+    "Simulates a scene: frames for ParaView (NAME.pvd), signals.csv, summary.json, "
+    "checkpoint.h5.\n\n"
     "  -o, --output DIR     results go to DIR (default: the scene's name without its ending)\n"
     "  -s, --set KEY=VALUE  replace or add a value of the scene\n"
     "  -t, --threads N      number of threads (default: all processors)\n"
@@ -22,7 +23,8 @@ static const char help[] =
     "      --stop TIME      stop at TIME (as '0.4 s') and leave a checkpoint\n"
     "  -q, --quiet          no progress, no warnings\n"
     "  -h, --help           this text\n\n"
-    "Exit codes: 0 good, 2 the user's input, 3 numerical failure (the last good state is kept), 4 system.\n\n"
+    "Exit codes: 0 good, 2 the user's input, 3 numerical failure (the last good state is kept), 4 "
+    "system.\n\n"
     "Examples:\n"
     "  viscera run data/beat.yaml -o beat\n"
     "  viscera run data/beat.yaml -o half --set 'time.end=0.4 s' --threads 1\n"
@@ -34,8 +36,8 @@ typedef struct run_arguments {
   bool quiet;
 } run_arguments;
 
-// One line, overwritten, while stderr is a terminal. `context` is where the counting began: time in ms and wall
-// seconds of the first call, which a resumed run makes late.
+// One line, overwritten, while stderr is a terminal. `context` is where the counting began: time in
+// ms and wall seconds of the first call, which a resumed run makes late.
 static void show_progress(void *context, double time, double end, double wall_seconds)
 {
   double *begin = context;
@@ -44,7 +46,8 @@ static void show_progress(void *context, double time, double end, double wall_se
     begin[1] = wall_seconds;
   }
   const double done = time - begin[0], speed = done > 0 ? done / (wall_seconds - begin[1]) : 0;
-  fprintf(stderr, "\r%6.1f of %.1f ms   %.3g simulated s per minute   ", time, end, 60 * 1e-3 * speed);
+  fprintf(stderr, "\r%6.1f of %.1f ms   %.3g simulated s per minute   ", time, end,
+          60 * 1e-3 * speed);
   if (speed > 0) fprintf(stderr, "%.0f s left   ", (end - time) / speed);
   fflush(stderr);
 }
@@ -72,14 +75,29 @@ static int read_arguments(int argc, char **argv, run_arguments *arguments, bool 
   for (int c; (c = getopt_long(argc, argv, "o:s:t:rqh", options, NULL)) != -1;) {
     int code = 0;
     switch (c) {
-      case 'o': arguments->run.directory = optarg; break;
-      case 's': code = vsc_keep_setting(&arguments->scene, optarg); break;
-      case 't': code = vsc_keep_threads(optarg); break;
-      case 'r': arguments->run.resume = true; break;
-      case STOP: code = keep_stop(optarg, arguments); break;
-      case 'q': arguments->quiet = true; break;
-      case 'h': *helped = true; return fputs(help, stdout) < 0 ? 4 : 0;
-      default: code = 2;
+      case 'o':
+        arguments->run.directory = optarg;
+        break;
+      case 's':
+        code = vsc_keep_setting(&arguments->scene, optarg);
+        break;
+      case 't':
+        code = vsc_keep_threads(optarg);
+        break;
+      case 'r':
+        arguments->run.resume = true;
+        break;
+      case STOP:
+        code = keep_stop(optarg, arguments);
+        break;
+      case 'q':
+        arguments->quiet = true;
+        break;
+      case 'h':
+        *helped = true;
+        return fputs(help, stdout) < 0 ? 4 : 0;
+      default:
+        code = 2;
     }
     if (code != 0) return code;
   }
@@ -102,9 +120,11 @@ static void name_directory(const char *scene, char *directory, size_t size)
 
 static void report(const vsc_run_result *result)
 {
-  printf("%s: %.4g ms in %.0f steps, %.3g s (%.3g s of CPU, %.3g million element updates per CPU second), %zu frames\n",
-         result->series, result->simulated, result->steps, result->wall_seconds, result->cpu_seconds,
-         1e-6 * result->updates_per_second, result->frames);
+  printf(
+      "%s: %.4g ms in %.0f steps, %.3g s (%.3g s of CPU, %.3g million element updates per CPU "
+      "second), %zu frames\n",
+      result->series, result->simulated, result->steps, result->wall_seconds, result->cpu_seconds,
+      1e-6 * result->updates_per_second, result->frames);
 }
 
 int vsc_verb_run(int argc, char **argv)
@@ -129,8 +149,10 @@ int vsc_verb_run(int argc, char **argv)
   vsc_error error;
   code = (int)vsc_run(problem, &arguments.run, &result, &error);
   if (begin[1] >= 0) fputc('\n', stderr);  // behind the progress
-  if (code != 0) fprintf(stderr, "viscera: %s\n", error.text);
-  else report(&result);
+  if (code != 0)
+    fprintf(stderr, "viscera: %s\n", error.text);
+  else
+    report(&result);
   vsc_problem_free(problem);
   return code;
 }

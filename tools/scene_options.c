@@ -9,7 +9,8 @@
 int vsc_keep_setting(vsc_scene_options *options, const char *setting)
 {
   if (options->setting_count == VSC_MOST_SETTINGS) {
-    fprintf(stderr, "viscera: more than %d --set options: put the values into the scene\n", VSC_MOST_SETTINGS);
+    fprintf(stderr, "viscera: more than %d --set options: put the values into the scene\n",
+            VSC_MOST_SETTINGS);
     return 2;
   }
   options->settings[options->setting_count++] = setting;

@@ -11,10 +11,11 @@ int vsc_verb_schema(int argc, char **argv)
   static const struct option options[] = {{"help", no_argument, NULL, 'h'}, {0}};
   for (int c; (c = getopt_long(argc, argv, "h", options, NULL)) != -1;) {
     if (c != 'h') return 2;
-    puts("Usage: viscera schema\n"
-         "Prints a commented template of everything that a scene can say, itself a valid scene.\n\n"
-         "Example:\n"
-         "  viscera schema > my.yaml");
+    puts(
+        "Usage: viscera schema\n"
+        "Prints a commented template of everything that a scene can say, itself a valid scene.\n\n"
+        "Example:\n"
+        "  viscera schema > my.yaml");
     return 0;
   }
   vsc_scene_schema(stdout);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The verbs of the program. Each is given its own argv (argv[0] is the verb's name) and returns the exit code: 0
-// good, 2 the user's input, 3 numerical failure, 4 system. Data go to stdout, messages to stderr.
+// The verbs of the program. Each is given its own argv (argv[0] is the verb's name) and returns the
+// exit code: 0 good, 2 the user's input, 3 numerical failure, 4 system. Data go to stdout, messages
+// to stderr.
 #ifndef VSC_TOOLS_VERBS_H
 #define VSC_TOOLS_VERBS_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All threading of the library. Work is cut into numbered pieces that do not depend on the number of
-// threads; who does a piece never changes its result.
+// All threading of the library. Work is cut into numbered pieces that do not depend on the number
+// of threads; who does a piece never changes its result.
 #ifndef VSC_BASE_PARALLEL_H
 #define VSC_BASE_PARALLEL_H
 
@@ -15,8 +15,8 @@ int vsc_parallel_threads(void);
 // Does one piece. `thread` in [0, vsc_parallel_threads()) says whose scratch memory to use.
 typedef void vsc_piece(void *context, size_t piece, int thread);
 
-// Calls work(context, piece, thread) once for each piece in [0, pieces), and returns when all are done.
-// Must not be called from within a piece.
+// Calls work(context, piece, thread) once for each piece in [0, pieces), and returns when all are
+// done. Must not be called from within a piece.
 void vsc_parallel_for(size_t pieces, vsc_piece *work, void *context);
 
 #endif

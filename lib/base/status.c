@@ -19,5 +19,6 @@ vsc_status vsc_fail(vsc_error *error, vsc_status status, const char *format, ...
 
 vsc_status vsc_fail_memory(vsc_error *error, const char *what)
 {
-  return vsc_fail(error, VSC_SYSTEM, "out of memory for %s: use a smaller mesh or a machine with more memory", what);
+  return vsc_fail(error, VSC_SYSTEM,
+                  "out of memory for %s: use a smaller mesh or a machine with more memory", what);
 }

@@ -17,7 +17,8 @@ size_t vsc_edit_distance(const char *a, const char *b)
     row[0] = i;
     for (size_t j = 1; j <= n; j++) {
       const size_t above = row[j];
-      size_t best = diagonal + (tolower((unsigned char)a[i - 1]) != tolower((unsigned char)b[j - 1]));
+      size_t best =
+          diagonal + (tolower((unsigned char)a[i - 1]) != tolower((unsigned char)b[j - 1]));
       if (above + 1 < best) best = above + 1;
       if (row[j - 1] + 1 < best) best = row[j - 1] + 1;
       diagonal = above;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Four doubles at once, as a GCC/Clang vector type: the same text compiles to AVX2, SSE2 or NEON and,
-// with contraction off, gives the same bits on all of them. Nothing else knows the width.
+// Four doubles at once, as a GCC/Clang vector type: the same text compiles to AVX2, SSE2 or NEON
+// and, with contraction off, gives the same bits on all of them. Nothing else knows the width.
 #ifndef VSC_BASE_WIDE_H
 #define VSC_BASE_WIDE_H
 

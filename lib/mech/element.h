@@ -37,10 +37,11 @@ VSC_INLINE vsc_wide vsc_pack_ratio(const vsc_wide3 g[3])
   return vsc_wide_dot(g[0], vsc_wide_cross(g[1], g[2]));
 }
 
-// Active tension of a slot at fibre stretch `stretch`, kPa: T, or what the active spring adds to the passive
-// one, E_f(t) (stretch - r(t)) - E_f (stretch - 1). `nominal` is the same as force per area at rest.
-static inline double vsc_active_tension(const vsc_model *model, const vsc_material *material, size_t slot,
-                                        double time, double stretch, double *nominal)
+// Active tension of a slot at fibre stretch `stretch`, kPa: T, or what the active spring adds to
+// the passive one, E_f(t) (stretch - r(t)) - E_f (stretch - 1). `nominal` is the same as force per
+// area at rest.
+static inline double vsc_active_tension(const vsc_model *model, const vsc_material *material,
+                                        size_t slot, double time, double stretch, double *nominal)
 {
   *nominal = 0;
   if (material->active == VSC_ACTIVE_NONE || model->mesh_tet[slot] == VSC_NO_TET) return 0;

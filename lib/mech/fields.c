@@ -35,19 +35,22 @@ static void read_nodes(const vsc_model *model, vsc_state *state, vsc_field field
       continue;
     }
     for (int i = 0; i < 3; i++)
-      values[3 * node + i] = field == VSC_FIELD_VELOCITY ? state->v[4 * n + i]
-                                                         : state->x[4 * n + i] - model->rest[4 * n + i];
+      values[3 * node + i] = field == VSC_FIELD_VELOCITY
+                                 ? state->v[4 * n + i]
+                                 : state->x[4 * n + i] - model->rest[4 * n + i];
   }
 }
 
 static void read_slot(const vsc_model *model, const vsc_state *state, const vsc_material *material,
-                      const vsc_frame_axes *frame, double J, vsc_field field, size_t slot, double *value)
+                      const vsc_frame_axes *frame, double J, vsc_field field, size_t slot,
+                      double *value)
 {
   const int l = (int)(slot % VSC_WIDTH);
   double nominal;
   switch (field) {
     case VSC_FIELD_ACTIVE_TENSION:
-      *value = vsc_active_tension(model, material, slot, state->time, frame->length[0][l], &nominal);
+      *value =
+          vsc_active_tension(model, material, slot, state->time, frame->length[0][l], &nominal);
       break;
     case VSC_FIELD_STRETCH:
       *value = frame->length[0][l];
@@ -65,7 +68,8 @@ static void read_slot(const vsc_model *model, const vsc_state *state, const vsc_
   }
 }
 
-static void read_tets(const vsc_model *model, const vsc_state *state, vsc_field field, double *values)
+static void read_tets(const vsc_model *model, const vsc_state *state, vsc_field field,
+                      double *values)
 {
   const int components = vsc_field_components(field);
   for (size_t p = 0; p < model->patch_count; p++) {

@@ -37,12 +37,14 @@ static local_arrays local_of(const evaluation *e, int thread)
   return local;
 }
 
-static void gather(const vsc_model *model, const vsc_patch *patch, const double *from, double *local)
+static void gather(const vsc_model *model, const vsc_patch *patch, const double *from,
+                   double *local)
 {
   memcpy(local, from + 4 * (size_t)patch->first_node, 4 * patch->own_count * sizeof *local);
   vsc_wide *to = (vsc_wide *)(local + 4 * (size_t)patch->own_count);
   const uint32_t *shared = model->shared + patch->first_shared;
-  for (uint32_t n = 0; n < patch->shared_count; n++) to[n] = *(const vsc_wide *)(from + 4 * (size_t)shared[n]);
+  for (uint32_t n = 0; n < patch->shared_count; n++)
+    to[n] = *(const vsc_wide *)(from + 4 * (size_t)shared[n]);
 }
 
 // The deformed volume of a shared node's group: the sum of its parts, in the order of the patches.
@@ -80,7 +82,8 @@ static void gather_pressures(const evaluation *e, const vsc_patch *patch, double
   }
 }
 
-// Activation of the patch's packs at this time: one number when all its elements agree. Returns the stride.
+// Activation of the patch's packs at this time: one number when all its elements agree. Returns the
+// stride.
 static size_t fill_activation(const evaluation *e, const vsc_patch *patch, vsc_wide *activation)
 {
   const vsc_model *model = e->model;
@@ -101,8 +104,8 @@ static size_t fill_activation(const evaluation *e, const vsc_patch *patch, vsc_w
   }
   for (uint32_t k = 0; k < patch->pack_count; k++)
     for (int l = 0; l < VSC_WIDTH; l++)
-      activation[k][l] =
-          vsc_model_activation(model, material, VSC_WIDTH * (size_t)(patch->first_pack + k) + l, e->time);
+      activation[k][l] = vsc_model_activation(
+          model, material, VSC_WIDTH * (size_t)(patch->first_pack + k) + l, e->time);
   return 1;
 }
 
@@ -115,7 +118,9 @@ static void patch_volume(void *context, size_t p, int thread)
   const size_t count = patch->own_count + patch->shared_count;
   memset(local.f, 0, count * sizeof *local.f);
   const vsc_patch_work work = {.packs = e->model->packs + patch->first_pack,
-                               .pack_count = patch->pack_count, .x = local.x, .volume = local.f};
+                               .pack_count = patch->pack_count,
+                               .x = local.x,
+                               .volume = local.f};
   vsc_volume_kernel()(&work);
   memcpy(e->scratch->volume + patch->first_node, local.f, patch->own_count * sizeof *local.f);
   memcpy(e->scratch->partial_volume + patch->first_shared, local.f + patch->own_count,
@@ -131,7 +136,8 @@ static void patch_force(void *context, size_t p, int thread)
   const local_arrays local = local_of(e, thread);
   const size_t count = patch->own_count + patch->shared_count;
   // only what this material has is gathered and computed
-  const bool damping = e->w != NULL && (material->damping[0] > 0 || material->damping[1] > 0 || material->damping[2] > 0);
+  const bool damping = e->w != NULL && (material->damping[0] > 0 || material->damping[1] > 0 ||
+                                        material->damping[2] > 0);
   const size_t stride = fill_activation(e, patch, local.activation);
   const bool passive = stride == 0 && local.activation[0][0] == 0;
   gather(model, patch, e->x, local.x);
@@ -139,13 +145,19 @@ static void patch_force(void *context, size_t p, int thread)
   if (model->terms.nodal_volume) gather_pressures(e, patch, local.pressure);
   memset(local.f, 0, 4 * count * sizeof *local.f);
   const vsc_patch_work work = {.packs = model->packs + patch->first_pack,
-                               .pack_count = patch->pack_count, .material = material,
-                               .x = local.x, .w = local.w, .f = local.f, .pressure = local.pressure,
-                               .activation = local.activation, .activation_stride = stride};
-  vsc_force_kernel(damping, passive ? VSC_ACTIVE_NONE : material->active, model->terms.nodal_volume)(&work);
+                               .pack_count = patch->pack_count,
+                               .material = material,
+                               .x = local.x,
+                               .w = local.w,
+                               .f = local.f,
+                               .pressure = local.pressure,
+                               .activation = local.activation,
+                               .activation_stride = stride};
+  vsc_force_kernel(damping, passive ? VSC_ACTIVE_NONE : material->active,
+                   model->terms.nodal_volume)(&work);
   memcpy(e->force + 4 * (size_t)patch->first_node, local.f, 4 * patch->own_count * sizeof *local.f);
-  memcpy(e->scratch->partial + 4 * (size_t)patch->first_shared, local.f + 4 * (size_t)patch->own_count,
-         4 * patch->shared_count * sizeof *local.f);
+  memcpy(e->scratch->partial + 4 * (size_t)patch->first_shared,
+         local.f + 4 * (size_t)patch->own_count, 4 * patch->shared_count * sizeof *local.f);
 }
 
 // Adds the parts of the forces on shared nodes in the order of the patches.

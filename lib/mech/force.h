@@ -7,7 +7,8 @@
 
 // force = sum of element forces, pressures and weight at positions `x`, velocities `w` (both
 // node_count x 4; `w` may be NULL when there is no damping) and `time` (ms); mN, node_count x 4.
-// Sums run in an order that does not depend on the number of threads. Uses the state's scratch only.
+// Sums run in an order that does not depend on the number of threads. Uses the state's scratch
+// only.
 void vsc_force(const vsc_model *model, const double *x, const double *w, double time,
                vsc_scratch *scratch, double *force);
 

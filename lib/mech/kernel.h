@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The force of one patch on its nodes: the loop that a simulation spends its time in. Compiled once for each
-// instruction set and each combination of terms, chosen when the loop starts. Internal to mech.
+// The force of one patch on its nodes: the loop that a simulation spends its time in. Compiled once
+// for each instruction set and each combination of terms, chosen when the loop starts. Internal to
+// mech.
 #ifndef VSC_MECH_KERNEL_H
 #define VSC_MECH_KERNEL_H
 
@@ -11,13 +12,14 @@ typedef struct vsc_patch_work {
   const vsc_pack *packs;
   size_t pack_count;
   const vsc_material *material;
-  const double *x;          // positions, mm
-  const double *w;          // velocities, mm/ms; used with damping
-  const double *pressure;   // U'(J) of the nodes' volume groups, kPa; used with node-averaged volume
-  const vsc_wide *activation;  // of each pack, or of all when activation_stride is 0; used when active
+  const double *x;         // positions, mm
+  const double *w;         // velocities, mm/ms; used with damping
+  const double *pressure;  // U'(J) of the nodes' volume groups, kPa; used with node-averaged volume
+  const vsc_wide
+      *activation;  // of each pack, or of all when activation_stride is 0; used when active
   size_t activation_stride;
-  double *f;                // forces, mN: added to
-  double *volume;           // quarter volumes, mm^3: added to, by the volume pass
+  double *f;       // forces, mN: added to
+  double *volume;  // quarter volumes, mm^3: added to, by the volume pass
 } vsc_patch_work;
 
 typedef void vsc_patch_kernel(const vsc_patch_work *work);

@@ -59,9 +59,10 @@ VSC_INLINE vsc_wide mean_pressure(const vsc_pack *pack, const double *pressure)
   return 0.25 * sum;
 }
 
-// P_a += p cof_a,  cof(G) = [g_s x g_n | g_n x g_f | g_f x g_s],  p = U'(J) of the tet + mean of its nodes'
-VSC_INLINE void add_volume_stress(const vsc_pack *pack, const vsc_patch_work *work, const vsc_wide3 g[3],
-                                  bool nodal, vsc_wide3 P[3])
+// P_a += p cof_a,  cof(G) = [g_s x g_n | g_n x g_f | g_f x g_s],  p = U'(J) of the tet + mean of
+// its nodes'
+VSC_INLINE void add_volume_stress(const vsc_pack *pack, const vsc_patch_work *work,
+                                  const vsc_wide3 g[3], bool nodal, vsc_wide3 P[3])
 {
   vsc_wide3 cofactor[3];
   for (int a = 0; a < 3; a++) cofactor[a] = vsc_wide_cross(g[(a + 1) % 3], g[(a + 2) % 3]);
@@ -86,7 +87,8 @@ VSC_INLINE vsc_springs springs_of(const vsc_material *material, vsc_active_kind 
   return law;
 }
 
-VSC_INLINE void force_kernel(const vsc_patch_work *work, bool damping, vsc_active_kind active, bool nodal)
+VSC_INLINE void force_kernel(const vsc_patch_work *work, bool damping, vsc_active_kind active,
+                             bool nodal)
 {
   const vsc_material *material = work->material;
   for (size_t k = 0; k < work->pack_count; k++) {
@@ -101,7 +103,8 @@ VSC_INLINE void force_kernel(const vsc_patch_work *work, bool damping, vsc_activ
       gather_edges(pack, work->w, edge);
       frame_axes(pack, edge, rate);
       // eta_a dg_a/dt . u_a
-      for (int a = 0; a < 3; a++) along[a] = material->damping[a] * vsc_wide_dot(rate[a], frame.u[a]);
+      for (int a = 0; a < 3; a++)
+        along[a] = material->damping[a] * vsc_wide_dot(rate[a], frame.u[a]);
     }
     vsc_wide activation = vsc_splat(0);
     if (active != VSC_ACTIVE_NONE) activation = work->activation[k * work->activation_stride];
@@ -121,20 +124,20 @@ static void volume_kernel(const vsc_patch_work *work)
     vsc_wide3 edge[3];
     gather_edges(pack, work->x, edge);
     // an element's volume is (e_1 x e_2) . e_3 / 6, a quarter of which goes to each node
-    const vsc_wide quarter =
-        vsc_wide_dot(vsc_wide_cross(edge[0], edge[1]), edge[2]) * (1.0 / 24);
+    const vsc_wide quarter = vsc_wide_dot(vsc_wide_cross(edge[0], edge[1]), edge[2]) * (1.0 / 24);
     for (int c = 0; c < 4; c++)
       for (int l = 0; l < VSC_WIDTH; l++) work->volume[pack->node[c][l]] += quarter[l];
   }
 }
 
-#define FORCE_KERNEL(damping, active, nodal)                                             \
-  static void force_##damping##active##nodal(const vsc_patch_work *work)                 \
-  {                                                                                      \
-    force_kernel(work, damping, active, nodal);                                          \
+#define FORCE_KERNEL(damping, active, nodal)                             \
+  static void force_##damping##active##nodal(const vsc_patch_work *work) \
+  {                                                                      \
+    force_kernel(work, damping, active, nodal);                          \
   }
 #define FORCE_KERNELS(active) \
-  FORCE_KERNEL(0, active, 0) FORCE_KERNEL(0, active, 1) FORCE_KERNEL(1, active, 0) FORCE_KERNEL(1, active, 1)
+  FORCE_KERNEL(0, active, 0)  \
+  FORCE_KERNEL(0, active, 1) FORCE_KERNEL(1, active, 0) FORCE_KERNEL(1, active, 1)
 
 _Static_assert(VSC_ACTIVE_NONE == 0 && VSC_ACTIVE_SPRING == 1 && VSC_ACTIVE_TENSION == 2,
                "the table below is indexed by these");

@@ -15,7 +15,8 @@
 vsc_status vsc_ledger_create(const vsc_model *model, vsc_ledger **ledger, vsc_error *error)
 {
   size_t triangles = 0;
-  for (size_t p = 0; p < model->pressure_count; p++) triangles += model->pressures[p].triangle_count;
+  for (size_t p = 0; p < model->pressure_count; p++)
+    triangles += model->pressures[p].triangle_count;
   const size_t slots = model->terms.active != VSC_ACTIVE_NONE ? VSC_WIDTH * model->pack_count : 0;
   vsc_ledger *made;
   *ledger = NULL;
@@ -60,11 +61,13 @@ static void add_active(const observation *o, const vsc_material *material, size_
 {
   vsc_ledger *ledger = o->ledger;
   double nominal;
-  const double tension = vsc_active_tension(o->model, material, slot, o->state->time, stretch, &nominal);
+  const double tension =
+      vsc_active_tension(o->model, material, slot, o->state->time, stretch, &nominal);
   part->tension_high = fmax(part->tension_high, tension);
   part->tension_mean += V * tension;
   // a tension that shortens the fibre does work: - T d lambda
-  part->active_work -= V * 0.5 * (nominal + ledger->tension[slot]) * (stretch - ledger->stretch[slot]);
+  part->active_work -=
+      V * 0.5 * (nominal + ledger->tension[slot]) * (stretch - ledger->stretch[slot]);
   ledger->stretch[slot] = stretch;
   ledger->tension[slot] = nominal;
 }
@@ -113,8 +116,12 @@ static void observe_pack(const observation *o, const vsc_patch *patch, size_t k,
 
 static vsc_totals empty_totals(void)
 {
-  return (vsc_totals){.J_low = DBL_MAX, .J_high = -DBL_MAX, .stretch_low = DBL_MAX, .stretch_high = -DBL_MAX,
-                      .group_low = 1, .group_high = 1};
+  return (vsc_totals){.J_low = DBL_MAX,
+                      .J_high = -DBL_MAX,
+                      .stretch_low = DBL_MAX,
+                      .stretch_high = -DBL_MAX,
+                      .group_low = 1,
+                      .group_high = 1};
 }
 
 static void observe_patch(void *context, size_t p, int thread)
@@ -168,7 +175,8 @@ static void observe_groups(const vsc_model *model, vsc_state *state, vsc_totals 
   totals->group_low = DBL_MAX;
   totals->group_high = -DBL_MAX;
   for (size_t n = 0; n < model->node_count; n++) {
-    totals->volume_energy += model->group_volume[n] * vsc_volume_energy(model->group_modulus[n], ratio[n]);
+    totals->volume_energy +=
+        model->group_volume[n] * vsc_volume_energy(model->group_modulus[n], ratio[n]);
     totals->group_low = fmin(totals->group_low, ratio[n]);
     totals->group_high = fmax(totals->group_high, ratio[n]);
   }
@@ -201,7 +209,8 @@ static double pressure_work(const vsc_model *model, const vsc_state *state, doub
 
 static double stored_and_kinetic(const vsc_totals *totals)
 {
-  return totals->kinetic + totals->axial + totals->angular + totals->volume_energy + totals->gravity_energy;
+  return totals->kinetic + totals->axial + totals->angular + totals->volume_energy +
+         totals->gravity_energy;
 }
 
 void vsc_observe(const vsc_model *model, vsc_state *state, vsc_ledger *ledger, bool resume,
@@ -216,8 +225,10 @@ void vsc_observe(const vsc_model *model, vsc_state *state, vsc_ledger *ledger, b
     if (model->known[slot]) known_volume += model->packs[slot / VSC_WIDTH].V[slot % VSC_WIDTH];
   for (size_t m = 0; m < model->material_count; m++)
     if (model->materials[m].active != VSC_ACTIVE_NONE) active_volume += model->materials[m].volume;
-  if (known_volume > 0) totals->stretch_mean /= known_volume;
-  else totals->stretch_low = totals->stretch_high = totals->stretch_mean = 1;
+  if (known_volume > 0)
+    totals->stretch_mean /= known_volume;
+  else
+    totals->stretch_low = totals->stretch_high = totals->stretch_mean = 1;
   if (active_volume > 0) totals->tension_mean /= active_volume;
   observe_nodes(model, state, totals);
   if (model->terms.nodal_volume) observe_groups(model, state, totals);
@@ -225,7 +236,8 @@ void vsc_observe(const vsc_model *model, vsc_state *state, vsc_ledger *ledger, b
   if (ledger->calls > 0 && !resume) {
     ledger->active += totals->active_work;
     ledger->pressure += pushed;
-    ledger->dissipated += 0.5 * (ledger->dissipation + totals->dissipation) * (state->time - ledger->time);
+    ledger->dissipated +=
+        0.5 * (ledger->dissipation + totals->dissipation) * (state->time - ledger->time);
   }
   if (ledger->calls == 0 && !resume) ledger->start = stored_and_kinetic(totals);
   ledger->time = state->time;

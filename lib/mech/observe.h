@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is seen of a state: totals for signals, fields for frames, and the energy ledger. Computed only
-// when asked for.
+// What is seen of a state: totals for signals, fields for frames, and the energy ledger. Computed
+// only when asked for.
 #ifndef VSC_MECH_OBSERVE_H
 #define VSC_MECH_OBSERVE_H
 
@@ -8,25 +8,28 @@
 
 // Sums and ranges over the whole body at one moment.
 typedef struct vsc_totals {
-  double kinetic;            // sum m |v|^2 / 2, uJ
-  double axial;              // axial springs at their passive moduli, uJ
-  double angular;            // angular springs, uJ
-  double volume_energy;      // all volume groups, uJ
-  double gravity_energy;     // - sum m g . x, uJ, 0 at rest
-  double dissipation;        // power of axial damping, uJ/ms
-  double momentum[3];        // sum m v, mg mm/ms
-  double angular_momentum[3];// sum m x x v, mg mm^2/ms
-  double volume;             // of the tissue, mm^3
-  double J_low, J_high;      // range of the tets' volume ratios
+  double kinetic;                // sum m |v|^2 / 2, uJ
+  double axial;                  // axial springs at their passive moduli, uJ
+  double angular;                // angular springs, uJ
+  double volume_energy;          // all volume groups, uJ
+  double gravity_energy;         // - sum m g . x, uJ, 0 at rest
+  double dissipation;            // power of axial damping, uJ/ms
+  double momentum[3];            // sum m v, mg mm/ms
+  double angular_momentum[3];    // sum m x x v, mg mm^2/ms
+  double volume;                 // of the tissue, mm^3
+  double J_low, J_high;          // range of the tets' volume ratios
   double group_low, group_high;  // range of the node groups' volume ratios; 1 without them
-  double stretch_low, stretch_high, stretch_mean;  // fibre stretch |g_f| (mean by rest volume), known fibres only
-  double tension_high, tension_mean;  // active tension, kPa (mean by rest volume, over active materials)
-  double inverted;           // number of tets with J <= 0
-  double active_work;        // done by active tension since the last call on the same ledger, uJ
+  double stretch_low, stretch_high,
+      stretch_mean;  // fibre stretch |g_f| (mean by rest volume), known fibres only
+  double tension_high,
+      tension_mean;    // active tension, kPa (mean by rest volume, over active materials)
+  double inverted;     // number of tets with J <= 0
+  double active_work;  // done by active tension since the last call on the same ledger, uJ
 } vsc_totals;
 
-// Works done on the body since the start, kept up at each vsc_observe; what passed between two calls is
-// integrated by the trapezoidal rule, so its error falls with the square of their distance.
+// Works done on the body since the start, kept up at each vsc_observe; what passed between two
+// calls is integrated by the trapezoidal rule, so its error falls with the square of their
+// distance.
 typedef struct vsc_ledger {
   double active;       // work of active tension, uJ
   double pressure;     // work of pressures, uJ
@@ -35,33 +38,36 @@ typedef struct vsc_ledger {
   double time;         // of the last call, ms
   double dissipation;  // power at the last call, uJ/ms
   double calls;
-  double *stretch;     // slots: fibre stretch at the last call; NULL when nothing is active. Owned
-  double *tension;     // slots: nominal active tension at the last call, kPa. Owned
-  double *push;        // per pressure triangle: force on each corner and sum of the corners, 6 numbers. Owned
-  vsc_totals *parts;   // patch_count. Owned
+  double *stretch;  // slots: fibre stretch at the last call; NULL when nothing is active. Owned
+  double *tension;  // slots: nominal active tension at the last call, kPa. Owned
+  double *
+      push;  // per pressure triangle: force on each corner and sum of the corners, 6 numbers. Owned
+  vsc_totals *parts;  // patch_count. Owned
 } vsc_ledger;
 
 vsc_status vsc_ledger_create(const vsc_model *model, vsc_ledger **ledger, vsc_error *error);
 void vsc_ledger_free(vsc_ledger *ledger);  // NULL is fine
 
-// Fills `totals` from the state and carries the ledger on to the state's time. With `resume` the works are
-// left as they are (read from a checkpoint of this very state) and only the last call's values are renewed.
+// Fills `totals` from the state and carries the ledger on to the state's time. With `resume` the
+// works are left as they are (read from a checkpoint of this very state) and only the last call's
+// values are renewed.
 void vsc_observe(const vsc_model *model, vsc_state *state, vsc_ledger *ledger, bool resume,
                  vsc_totals *totals);
 
-// Kinetic + stored energy - energy at the start - works + dissipation: 0 but for rounding and quadrature, uJ.
+// Kinetic + stored energy - energy at the start - works + dissipation: 0 but for rounding and
+// quadrature, uJ.
 double vsc_balance_error(const vsc_ledger *ledger, const vsc_totals *totals);
 
 typedef enum vsc_field {
   VSC_FIELD_DISPLACEMENT,  // nodes x 3, mm
   VSC_FIELD_VELOCITY,      // nodes x 3, mm/ms = m/s
   VSC_FIELD_GROUP_RATIO,   // nodes x 1: J of the node's volume group (1 without groups)
-  VSC_FIELD_FIBER,         // tets x 3: unit vector of the deformed axis; 0 where the fibre is not known
+  VSC_FIELD_FIBER,  // tets x 3: unit vector of the deformed axis; 0 where the fibre is not known
   VSC_FIELD_SHEET,
   VSC_FIELD_NORMAL,
-  VSC_FIELD_ACTIVE_TENSION,// tets x 1, kPa: T, or what an active spring adds to the passive one
-  VSC_FIELD_STRETCH,       // tets x 1: |g_f|
-  VSC_FIELD_VOLUME_RATIO,  // tets x 1: J
+  VSC_FIELD_ACTIVE_TENSION,  // tets x 1, kPa: T, or what an active spring adds to the passive one
+  VSC_FIELD_STRETCH,         // tets x 1: |g_f|
+  VSC_FIELD_VOLUME_RATIO,    // tets x 1: J
 } vsc_field;
 
 // True for fields on nodes.

@@ -13,7 +13,8 @@ static bool allocate(const vsc_model *model, vsc_state *state)
   const size_t n = model->node_count;
   vsc_scratch *scratch = &state->scratch;
   scratch->threads = vsc_parallel_threads();
-  // positions, velocities and forces of a patch's nodes, their pressures, the activation of its packs
+  // positions, velocities and forces of a patch's nodes, their pressures, the activation of its
+  // packs
   scratch->local_size = (4 * 3 + 1) * model->most_nodes + VSC_WIDTH * (model->most_packs + 2);
   scratch->local_size = (scratch->local_size + 7) / 8 * 8;
   const bool nodal = model->terms.nodal_volume;

@@ -22,29 +22,30 @@ typedef struct vsc_limit {
 
 // Memory of the computation, rewritten at each use.
 typedef struct vsc_scratch {
-  double *local;          // threads x local_size: the nodes and forces of one patch
+  double *local;  // threads x local_size: the nodes and forces of one patch
   size_t local_size;
   int threads;
-  double *partial;        // partial_count x 4: parts of the forces on shared nodes, mN
-  double *volume;         // node_count: deformed volume of the nodes' groups (own nodes), mm^3
-  double *partial_volume; // partial_count: parts of the same for shared nodes
-  double *predicted;      // node_count x 4: velocity at the end of the step, when there is damping
-  double *trial;          // node_count x 4 x 3: positions, velocities and forces of the step estimate
+  double *partial;         // partial_count x 4: parts of the forces on shared nodes, mN
+  double *volume;          // node_count: deformed volume of the nodes' groups (own nodes), mm^3
+  double *partial_volume;  // partial_count: parts of the same for shared nodes
+  double *predicted;       // node_count x 4: velocity at the end of the step, when there is damping
+  double *trial;  // node_count x 4 x 3: positions, velocities and forces of the step estimate
 } vsc_scratch;
 
 typedef struct vsc_state {
-  double time;          // ms
-  double steps;         // done so far (an integer)
-  double *x;            // node_count x 4: position, mm; owned
-  double *v;            // node_count x 4: velocity, mm/ms; owned
-  double *a;            // node_count x 4: acceleration at x, v, time, mm/ms^2; owned
-  double *force;        // node_count x 4: total force behind a, mN; owned
+  double time;    // ms
+  double steps;   // done so far (an integer)
+  double *x;      // node_count x 4: position, mm; owned
+  double *v;      // node_count x 4: velocity, mm/ms; owned
+  double *a;      // node_count x 4: acceleration at x, v, time, mm/ms^2; owned
+  double *force;  // node_count x 4: total force behind a, mN; owned
   vsc_limit limit;
   vsc_scratch scratch;
 } vsc_state;
 
-// The state of `model` at rest at time 0, its acceleration still to be computed (vsc_start). Nothing
-// is allocated after this. Must be created after the number of threads is set. The caller owns *state.
+// The state of `model` at rest at time 0, its acceleration still to be computed (vsc_start).
+// Nothing is allocated after this. Must be created after the number of threads is set. The caller
+// owns *state.
 vsc_status vsc_state_create(const vsc_model *model, vsc_state **state, vsc_error *error);
 
 void vsc_state_free(vsc_state *state);  // NULL is fine

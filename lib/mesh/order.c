@@ -63,8 +63,8 @@ static void bounding_box(size_t count, const double *points, double low[3], doub
     if (high[i] - low[i] > *side) *side = high[i] - low[i];
 }
 
-vsc_status vsc_order_hilbert(size_t count, const double *points, const uint32_t *group, uint32_t *order,
-                             vsc_error *error)
+vsc_status vsc_order_hilbert(size_t count, const double *points, const uint32_t *group,
+                             uint32_t *order, vsc_error *error)
 {
   sort_key *keys;
   if (!VSC_NEW(keys, count)) return vsc_fail_memory(error, "sorting the elements");

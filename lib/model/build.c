@@ -16,8 +16,8 @@ static const vsc_array *find_tet_array(const vsc_mesh *mesh, const char *name, c
   if (array == NULL || array->components != 1) {
     char hint[256];
     vsc_arrays_hint(&mesh->tet_data, name, hint, sizeof hint);
-    vsc_fail(error, VSC_INPUT, "%s: the mesh has no cell array '%s' with one number per element%s", key,
-             name, hint);
+    vsc_fail(error, VSC_INPUT, "%s: the mesh has no cell array '%s' with one number per element%s",
+             key, name, hint);
     return NULL;
   }
   return array;
@@ -48,10 +48,11 @@ static vsc_status assign_materials(const vsc_mesh *mesh, const vsc_definition *d
     const double region = regions ? regions->values[t] : 0;
     const int material = material_of_region(definition, region);
     if (material < 0)
-      return vsc_fail(error, VSC_INPUT,
-                      "materials: element %u has region %g, which no material names: add the region to a "
-                      "material's `regions` or give one material without `regions`",
-                      mesh->tet_source[t], region);
+      return vsc_fail(
+          error, VSC_INPUT,
+          "materials: element %u has region %g, which no material names: add the region to a "
+          "material's `regions` or give one material without `regions`",
+          mesh->tet_source[t], region);
     material_of[t] = (uint32_t)material;
   }
   return VSC_OK;
@@ -77,7 +78,8 @@ static vsc_status copy_material(const vsc_material_def *def, const vsc_definitio
   return vsc_curve_build(&def->active.curve, definition->end_time, &material->curve, error);
 }
 
-static vsc_status build_materials(const vsc_definition *definition, vsc_model *model, vsc_error *error)
+static vsc_status build_materials(const vsc_definition *definition, vsc_model *model,
+                                  vsc_error *error)
 {
   model->material_count = definition->material_count;
   if (!VSC_NEW(model->materials, model->material_count)) return vsc_fail_memory(error, "materials");
@@ -90,9 +92,11 @@ static vsc_status build_materials(const vsc_definition *definition, vsc_model *m
       if (material->damping[a] > 0) model->terms.damping = true;
     if (material->active == VSC_ACTIVE_NONE) continue;
     if (model->terms.active != VSC_ACTIVE_NONE && model->terms.active != material->active)
-      return vsc_fail(error, VSC_INPUT,
-                      "materials[%zu].active.kind: a scene has active springs or active tension, not both; "
-                      "use one kind in all materials", m);
+      return vsc_fail(
+          error, VSC_INPUT,
+          "materials[%zu].active.kind: a scene has active springs or active tension, not both; "
+          "use one kind in all materials",
+          m);
     model->terms.active = material->active;
   }
   model->terms.nodal_volume = definition->volume == VSC_VOLUME_NODAL;
@@ -117,7 +121,8 @@ static void count_materials(vsc_model *model)
 static uint64_t hash_curve(uint64_t hash, const vsc_curve *curve)
 {
   hash = vsc_hash(hash, &curve->period, sizeof curve->period);
-  return curve->values ? vsc_hash(hash, curve->values, (curve->intervals + 1) * sizeof(double)) : hash;
+  return curve->values ? vsc_hash(hash, curve->values, (curve->intervals + 1) * sizeof(double))
+                       : hash;
 }
 
 static void hash_model(vsc_model *model)
@@ -153,13 +158,15 @@ static vsc_status check_fibres(const vsc_model *model, vsc_error *error)
   for (size_t slot = 0; slot < VSC_WIDTH * model->pack_count; slot++)
     if (model->known[slot]) return VSC_OK;
   if (model->terms.active == VSC_ACTIVE_NONE) return VSC_OK;
-  return vsc_fail(error, VSC_INPUT,
-                  "fibers: a material is active but no element has a fibre, so nothing would contract; choose "
-                  "fibers.source (map, arrays, helix, constant, ...)");
+  return vsc_fail(
+      error, VSC_INPUT,
+      "fibers: a material is active but no element has a fibre, so nothing would contract; choose "
+      "fibers.source (map, arrays, helix, constant, ...)");
 }
 
-static vsc_status build(const vsc_mesh *mesh, const vsc_axes *axes, const vsc_definition *definition,
-                        uint32_t *material_of, vsc_model *model, vsc_error *error)
+static vsc_status build(const vsc_mesh *mesh, const vsc_axes *axes,
+                        const vsc_definition *definition, uint32_t *material_of, vsc_model *model,
+                        vsc_error *error)
 {
   model->end_time = definition->end_time;
   model->step = definition->step;
@@ -187,7 +194,8 @@ vsc_status vsc_model_build(const vsc_mesh *mesh, const vsc_axes *axes,
   vsc_status status = vsc_definition_check(definition, error);
   if (status != VSC_OK) return status;
   if (axes != NULL && axes->count != mesh->tet_count)
-    return vsc_fail(error, VSC_INPUT, "fibers: axes of %zu elements for a mesh of %zu; give one frame per element",
+    return vsc_fail(error, VSC_INPUT,
+                    "fibers: axes of %zu elements for a mesh of %zu; give one frame per element",
                     axes->count, mesh->tet_count);
   vsc_model *built;
   uint32_t *material_of;

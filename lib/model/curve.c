@@ -40,8 +40,10 @@ static double hill_peak(const vsc_curve_def *d)
     const double middle = 0.5 * (low + high), t = exp(middle);
     const double slope = d->rise_power / (1 + pow(t / d->rise, d->rise_power)) -
                          d->fall_power / (1 + pow(t / d->fall, -d->fall_power));
-    if (slope > 0) low = middle;
-    else high = middle;
+    if (slope > 0)
+      low = middle;
+    else
+      high = middle;
   }
   return analytic_value(d, d->start + exp(low));
 }
@@ -51,7 +53,8 @@ static vsc_status tabulate_points(const vsc_curve_def *d, vsc_curve *curve, vsc_
 {
   for (size_t k = 1; k < d->point_count; k++)
     if (!(d->times[k] > d->times[k - 1]))
-      return vsc_fail(error, VSC_INPUT, "curve table: time %g ms does not come after %g ms; sort the rows by time",
+      return vsc_fail(error, VSC_INPUT,
+                      "curve table: time %g ms does not come after %g ms; sort the rows by time",
                       d->times[k], d->times[k - 1]);
   const size_t n = d->point_count;
   const gsl_interp_type *type = n > 2 ? gsl_interp_steffen : gsl_interp_linear;
@@ -70,7 +73,8 @@ static vsc_status tabulate_points(const vsc_curve_def *d, vsc_curve *curve, vsc_
   return VSC_OK;
 }
 
-vsc_status vsc_curve_build(const vsc_curve_def *d, double end_time, vsc_curve *curve, vsc_error *error)
+vsc_status vsc_curve_build(const vsc_curve_def *d, double end_time, vsc_curve *curve,
+                           vsc_error *error)
 {
   *curve = (vsc_curve){.period = d->period, .span = d->period > 0 ? d->period : end_time};
   curve->intervals = d->kind == VSC_CURVE_CONSTANT ? 1 : INTERVALS;

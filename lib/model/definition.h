@@ -23,33 +23,33 @@ typedef enum vsc_curve_kind {
 } vsc_curve_kind;
 
 typedef struct vsc_curve_def {
-  vsc_curve_kind kind;   // default CONSTANT
-  double start;          // ms; default 0
-  double duration;       // ms; default 300
-  double rise;           // ms; DOUBLE_HILL time constant, TANH_PAIR steepness; default 100 and 20
-  double fall;           // ms; likewise; default 300 and 20
-  double rise_power;     // DOUBLE_HILL: default 2
-  double fall_power;     // DOUBLE_HILL: default 20
-  double period;         // ms; the curve repeats; 0: it does not; default 0
-  size_t point_count;    // TABLE: at least 2
-  double *times;         // TABLE: point_count, rising, ms; owned
-  double *values;        // TABLE: point_count; owned
+  vsc_curve_kind kind;  // default CONSTANT
+  double start;         // ms; default 0
+  double duration;      // ms; default 300
+  double rise;          // ms; DOUBLE_HILL time constant, TANH_PAIR steepness; default 100 and 20
+  double fall;          // ms; likewise; default 300 and 20
+  double rise_power;    // DOUBLE_HILL: default 2
+  double fall_power;    // DOUBLE_HILL: default 20
+  double period;        // ms; the curve repeats; 0: it does not; default 0
+  size_t point_count;   // TABLE: at least 2
+  double *times;        // TABLE: point_count, rising, ms; owned
+  double *values;       // TABLE: point_count; owned
 } vsc_curve_def;
 
 typedef enum vsc_active_kind {
   VSC_ACTIVE_NONE,
   VSC_ACTIVE_SPRING,   // the fibre spring itself changes: E_f(t) = E_f + a (stiffness - E_f),
                        // rest stretch r(t) = 1 - a (1 - rest_stretch)
-  VSC_ACTIVE_TENSION,  // a tension T(t) = a tension along the fibre, as second Piola-Kirchhoff stress:
-                       // S += T f0 f0 (Land et al. 2015), that is P_f += T g_f
+  VSC_ACTIVE_TENSION,  // a tension T(t) = a tension along the fibre, as second Piola-Kirchhoff
+                       // stress: S += T f0 f0 (Land et al. 2015), that is P_f += T g_f
 } vsc_active_kind;
 
 // Activation a = amplitude . curve(t - delay) of an element, 0 at rest and 1 at the peak.
 typedef struct vsc_active_def {
-  vsc_active_kind kind;            // default NONE
-  double stiffness;                // SPRING: fibre modulus at a = 1, kPa
-  double rest_stretch;             // SPRING: rest stretch at a = 1, in (0, 1]; default 1
-  double tension;                  // TENSION: at a = 1, kPa
+  vsc_active_kind kind;  // default NONE
+  double stiffness;      // SPRING: fibre modulus at a = 1, kPa
+  double rest_stretch;   // SPRING: rest stretch at a = 1, in (0, 1]; default 1
+  double tension;        // TENSION: at a = 1, kPa
   vsc_curve_def curve;
   double delay;                    // ms, default 0
   char amplitude_array[VSC_NAME];  // tet array that multiplies the amplitude; empty: 1
@@ -62,14 +62,14 @@ typedef struct vsc_active_def {
 //   psi = sum_a E_a (|g_a| - 1)^2 / 2 + sum_{a<b} G_ab c_ab^2 / 2
 typedef struct vsc_material_def {
   char name[VSC_NAME];
-  size_t region_count;      // 0: every element that no other material names
-  int regions[32];          // values of the region array
-  double density;           // mg/mm^3; default 1.06
-  double axial[3];          // E_f, E_s, E_n, kPa
-  double angular[3];        // G_fs, G_sn, G_nf, kPa
-  double damping[3];        // axial viscosity eta_f, eta_s, eta_n, kPa ms; default 0
-  double volume_modulus;    // K, kPa, of U(J) = K/4 (J^2 - 1 - 2 ln J); default 0
-  double stabilization;     // Ks, kPa: the same energy of each tet beside node-averaged volume
+  size_t region_count;    // 0: every element that no other material names
+  int regions[32];        // values of the region array
+  double density;         // mg/mm^3; default 1.06
+  double axial[3];        // E_f, E_s, E_n, kPa
+  double angular[3];      // G_fs, G_sn, G_nf, kPa
+  double damping[3];      // axial viscosity eta_f, eta_s, eta_n, kPa ms; default 0
+  double volume_modulus;  // K, kPa, of U(J) = K/4 (J^2 - 1 - 2 ln J); default 0
+  double stabilization;   // Ks, kPa: the same energy of each tet beside node-averaged volume
   vsc_active_def active;
 } vsc_material_def;
 
@@ -96,11 +96,11 @@ typedef struct vsc_definition {
   vsc_material_def *materials;  // owned
   vsc_volume_kind volume;
   size_t surface_count;
-  vsc_selector *surfaces;       // owned
+  vsc_selector *surfaces;  // owned
   size_t set_count;
-  vsc_selector *sets;           // owned
+  vsc_selector *sets;  // owned
   size_t support_count;
-  vsc_support_def *supports;    // owned
+  vsc_support_def *supports;  // owned
   size_t pressure_count;
   vsc_pressure_def *pressures;  // owned
   double gravity[3];            // mm/ms^2; default 0
@@ -116,7 +116,8 @@ vsc_material_def vsc_default_material(void);
 vsc_definition vsc_default_definition(void);
 
 // Refuses numbers that mean nothing (negative moduli, no volume modulus, rest stretch outside
-// (0, 1], ...) with the key as the scene writes it (materials[0].axial ...), the value and the remedy.
+// (0, 1], ...) with the key as the scene writes it (materials[0].axial ...), the value and the
+// remedy.
 vsc_status vsc_definition_check(const vsc_definition *definition, vsc_error *error);
 
 // Releases what the definition owns, not the struct itself.

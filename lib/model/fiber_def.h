@@ -18,14 +18,16 @@ typedef enum vsc_fiber_source {
   VSC_FIBER_HELIX,         // transmural helix of a ventricle
   VSC_FIBER_HORIZONTAL,    // the set of Fig. 6 of Bourguignon & Cani 2000: along x,
   VSC_FIBER_DIAGONAL,      // at 45 degrees in the x-z plane,
-  VSC_FIBER_HEMICIRCULAR,  // along half circles in the x-z plane, round the bottom middle of the box,
+  VSC_FIBER_HEMICIRCULAR,  // along half circles in the x-z plane, round the bottom middle of the
+                           // box,
   VSC_FIBER_HELICOIDAL,    // along helices round the box's vertical (z) mid-line, `pitch` above the
                            // horizontal,
   VSC_FIBER_RANDOM,        // uniform on the sphere, per element, from `seed`
 } vsc_fiber_source;
 
 // A voxel map of two angles. f = (cos el cos az, cos el sin az, sin el) in the axes chosen by
-// `image_axes`; az = azimuth_sense (value . scale - azimuth_zero), el = elevation_sense . value . scale.
+// `image_axes`; az = azimuth_sense (value . scale - azimuth_zero), el = elevation_sense . value .
+// scale.
 typedef struct vsc_angle_map_def {
   char file[VSC_PATH];
   char azimuth[VSC_NAME];    // array; default "azimuth"
@@ -34,29 +36,29 @@ typedef struct vsc_angle_map_def {
   double azimuth_zero;       // radians, counted from +x; default 0
   int azimuth_sense;         // +1 from +x to +y (default), -1 from +x to -y (rows stored downwards)
   int elevation_sense;       // +1 towards +z (default), -1
-  bool image_axes;           // true (default): angles are in the image's own axes i, j, k and turned by
-                             // its direction matrix; false: in the world's x, y, z
-  char mask[VSC_NAME];       // voxels with mask > 0 hold tissue; empty: every voxel
-  char weight[VSC_NAME];     // weight of a voxel, >= 0; empty: 1
-  double length_unit;        // mm per unit of origin and spacing; default 1
+  bool image_axes;      // true (default): angles are in the image's own axes i, j, k and turned by
+                        // its direction matrix; false: in the world's x, y, z
+  char mask[VSC_NAME];  // voxels with mask > 0 hold tissue; empty: every voxel
+  char weight[VSC_NAME];  // weight of a voxel, >= 0; empty: 1
+  double length_unit;     // mm per unit of origin and spacing; default 1
 } vsc_angle_map_def;
 
 typedef struct vsc_fiber_def {
-  vsc_fiber_source source;      // default NONE
-  vsc_angle_map_def map;        // MAP
-  bool fill;                    // MAP, ARRAYS: elements without data take the mean axis of their
-                                // neighbours, spreading until none is left; default false
-  char fiber_array[VSC_NAME];   // ARRAYS: default "fiber"
-  char sheet_array[VSC_NAME];   // ARRAYS: "sheet"; empty: by rule
-  double direction[3];          // CONSTANT: any length
-  double sheet_direction[3];    // CONSTANT: 0 0 0: by rule
-  char endo[VSC_NAME];          // HELIX: surface where the depth is 0
-  char epi[VSC_NAME];           // HELIX: surface where the depth is 1
-  double endo_angle;            // HELIX: helix angle at the endocardium, radians; default +60 degrees
-  double epi_angle;             // HELIX: at the epicardium, radians; default -60 degrees
-  double long_axis[3];          // HELIX: from apex to base; default 0 0 1
-  double pitch;                 // HELICOIDAL: radians above the horizontal; default 30 degrees
-  unsigned long seed;           // RANDOM: default 1
+  vsc_fiber_source source;     // default NONE
+  vsc_angle_map_def map;       // MAP
+  bool fill;                   // MAP, ARRAYS: elements without data take the mean axis of their
+                               // neighbours, spreading until none is left; default false
+  char fiber_array[VSC_NAME];  // ARRAYS: default "fiber"
+  char sheet_array[VSC_NAME];  // ARRAYS: "sheet"; empty: by rule
+  double direction[3];         // CONSTANT: any length
+  double sheet_direction[3];   // CONSTANT: 0 0 0: by rule
+  char endo[VSC_NAME];         // HELIX: surface where the depth is 0
+  char epi[VSC_NAME];          // HELIX: surface where the depth is 1
+  double endo_angle;    // HELIX: helix angle at the endocardium, radians; default +60 degrees
+  double epi_angle;     // HELIX: at the epicardium, radians; default -60 degrees
+  double long_axis[3];  // HELIX: from apex to base; default 0 0 1
+  double pitch;         // HELICOIDAL: radians above the horizontal; default 30 degrees
+  unsigned long seed;   // RANDOM: default 1
 } vsc_fiber_def;
 
 vsc_fiber_def vsc_default_fiber(void);

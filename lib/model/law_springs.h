@@ -9,8 +9,8 @@
 // eta_a (dg_a/dt . u_a) u_a. At rest the law is orthotropic elasticity without Poisson coupling:
 // C_aa = E_a, shear moduli G_ab; E_a = 2 mu, G_ab = mu is isotropic.
 //
-// A law is three functions on four frames at once: energy, stress P(g) and, for solvers that need it,
-// the tangent dP_a/dg_b. Only the first two are needed by explicit stepping.
+// A law is three functions on four frames at once: energy, stress P(g) and, for solvers that need
+// it, the tangent dP_a/dg_b. Only the first two are needed by explicit stepping.
 #ifndef VSC_MODEL_LAW_SPRINGS_H
 #define VSC_MODEL_LAW_SPRINGS_H
 
@@ -73,7 +73,8 @@ VSC_INLINE vsc_wide vsc_springs_angular_energy(const vsc_springs *law, const vsc
   return energy;
 }
 
-// P_a. `along[a]` is added to the axial force along u_a: damping, and whatever else pulls along an axis.
+// P_a. `along[a]` is added to the axial force along u_a: damping, and whatever else pulls along an
+// axis.
 VSC_INLINE void vsc_springs_stress(const vsc_springs *law, const vsc_frame_axes *frame,
                                    const vsc_wide along[3], vsc_wide3 P[3])
 {

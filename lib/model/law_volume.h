@@ -3,8 +3,8 @@
 //
 //   U(J) = K/4 (J^2 - 1 - 2 ln J)   for J >= J0 = 0.2,  its second-order Taylor polynomial below:
 //
-// convex, finite everywhere, twice continuously differentiable, and pushing an inverted element out.
-// U'(J) = K/2 (J - 1/J); U''(J) = K/2 (1 + 1/J^2); K is the bulk modulus at rest (U''(1) = K).
+// convex, finite everywhere, twice continuously differentiable, and pushing an inverted element
+// out. U'(J) = K/2 (J - 1/J); U''(J) = K/2 (1 + 1/J^2); K is the bulk modulus at rest (U''(1) = K).
 #ifndef VSC_MODEL_LAW_VOLUME_H
 #define VSC_MODEL_LAW_VOLUME_H
 

@@ -28,23 +28,24 @@ typedef struct vsc_material {
   double volume_modulus;   // K, kPa
   double element_modulus;  // of each tet's own U(J), kPa: K, or Ks beside node-averaged volume
   vsc_active_kind active;
-  double active_stiffness; // kPa
+  double active_stiffness;  // kPa
   double rest_stretch;
-  double tension;          // kPa
-  double delay;            // ms
-  vsc_curve curve;         // owned; only when active
+  double tension;   // kPa
+  double delay;     // ms
+  vsc_curve curve;  // owned; only when active
   size_t element_count;
-  double volume;           // mm^3
+  double volume;  // mm^3
 } vsc_material;
 
-// A block of elements, neighbours in space and of one material. Its nodes are numbered from 0: first
-// the nodes that no other patch has (consecutive nodes of the model), then the shared ones.
+// A block of elements, neighbours in space and of one material. Its nodes are numbered from 0:
+// first the nodes that no other patch has (consecutive nodes of the model), then the shared ones.
 typedef struct vsc_patch {
   uint32_t material;
   uint32_t first_pack, pack_count;
-  uint32_t first_node, own_count;        // own nodes: first_node ... first_node + own_count - 1
-  uint32_t first_shared, shared_count;   // shared nodes: shared[first_shared ...]; the patch's part of
-                                         // their sums lies at the same places of the partial arrays
+  uint32_t first_node, own_count;  // own nodes: first_node ... first_node + own_count - 1
+  uint32_t first_shared,
+      shared_count;  // shared nodes: shared[first_shared ...]; the patch's part of
+                     // their sums lies at the same places of the partial arrays
 } vsc_patch;
 
 // A surface under pressure.
@@ -69,22 +70,23 @@ typedef struct vsc_model {
   size_t pack_count, patch_count;
 
   // order
-  uint32_t *mesh_node;   // node_count: the mesh's node of each node
-  uint32_t *mesh_tet;    // pack_count x 4: the mesh's tet of each slot, or VSC_NO_TET
+  uint32_t *mesh_node;  // node_count: the mesh's node of each node
+  uint32_t *mesh_tet;   // pack_count x 4: the mesh's tet of each slot, or VSC_NO_TET
 
   // elements
-  vsc_pack *packs;       // pack_count
-  vsc_patch *patches;    // patch_count
-  uint32_t *shared;      // nodes of the patches' shared parts, partial_count in all
-  size_t own_node_count; // nodes [0, own_node_count) belong to one patch each
-  uint32_t *sum_start;   // node_count - own_node_count + 1: where a shared node's list starts in sum_place
-  uint32_t *sum_place;   // partial_count: places in the partial arrays, in the order of the patches
+  vsc_pack *packs;        // pack_count
+  vsc_patch *patches;     // patch_count
+  uint32_t *shared;       // nodes of the patches' shared parts, partial_count in all
+  size_t own_node_count;  // nodes [0, own_node_count) belong to one patch each
+  uint32_t *
+      sum_start;  // node_count - own_node_count + 1: where a shared node's list starts in sum_place
+  uint32_t *sum_place;  // partial_count: places in the partial arrays, in the order of the patches
   size_t partial_count;
-  size_t most_nodes;     // of any patch
-  size_t most_packs;     // of any patch
-  uint8_t *known;        // pack_count x 4: 1 where the fibre is known
-  double *amplitude;     // pack_count x 4: factor of the activation; NULL: 1 everywhere
-  double *delay;         // pack_count x 4: ms, added to the material's; NULL: 0 everywhere
+  size_t most_nodes;  // of any patch
+  size_t most_packs;  // of any patch
+  uint8_t *known;     // pack_count x 4: 1 where the fibre is known
+  double *amplitude;  // pack_count x 4: factor of the activation; NULL: 1 everywhere
+  double *delay;      // pack_count x 4: ms, added to the material's; NULL: 0 everywhere
 
   // nodes
   double *rest;          // node_count x 4: rest position, mm; fourth 0
@@ -93,8 +95,9 @@ typedef struct vsc_model {
   double *weight;        // node_count x 4: mass . gravity, mN; NULL without gravity
 
   // volume groups of the nodes, when terms.nodal_volume
-  double *group_volume;  // node_count: a quarter of the rest volume of the tets round the node, mm^3
-  double *group_modulus; // node_count: their volume-weighted K, kPa
+  double
+      *group_volume;  // node_count: a quarter of the rest volume of the tets round the node, mm^3
+  double *group_modulus;  // node_count: their volume-weighted K, kPa
 
   vsc_terms terms;
   size_t material_count;
@@ -105,14 +108,14 @@ typedef struct vsc_model {
   size_t surface_count;  // the named surfaces, with the mesh's node numbers
   vsc_surface *surfaces;
   size_t set_count;
-  vsc_node_set *sets;    // the named node sets, with the mesh's node numbers
-  size_t held_count;     // nodes held in at least one direction
-  double end_time;       // ms
-  double step;           // ms asked for by the user, or 0
+  vsc_node_set *sets;  // the named node sets, with the mesh's node numbers
+  size_t held_count;   // nodes held in at least one direction
+  double end_time;     // ms
+  double step;         // ms asked for by the user, or 0
   double safety;
-  double total_mass;     // mg
-  double total_volume;   // mm^3
-  uint64_t hash;         // of everything above: two models with equal hashes move alike
+  double total_mass;    // mg
+  double total_volume;  // mm^3
+  uint64_t hash;        // of everything above: two models with equal hashes move alike
 } vsc_model;
 
 // Builds the model of `definition` on `mesh` with the elements' `axes` (NULL: none are known, all

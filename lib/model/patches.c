@@ -15,12 +15,12 @@ enum { LARGEST_PATCH = 2048, SMALLEST_PATCH = 128, WANTED_PATCHES = 16 };
 typedef struct cutter {
   const vsc_mesh *mesh;
   const uint32_t *material_of;
-  uint32_t *order;        // tets in their new order
-  uint32_t *first_tet;    // patch_count + 1: patch p has order[first_tet[p] ...]
-  uint32_t *seen;         // mesh node -> the patch that touched it last
-  uint32_t *patches_of;   // mesh node -> number of patches that touch it
-  uint32_t *number;       // mesh node -> node
-  uint32_t *local;        // mesh node -> number in the current patch
+  uint32_t *order;       // tets in their new order
+  uint32_t *first_tet;   // patch_count + 1: patch p has order[first_tet[p] ...]
+  uint32_t *seen;        // mesh node -> the patch that touched it last
+  uint32_t *patches_of;  // mesh node -> number of patches that touch it
+  uint32_t *number;      // mesh node -> node
+  uint32_t *local;       // mesh node -> number in the current patch
 } cutter;
 
 static size_t patch_size(size_t tets)
@@ -41,8 +41,8 @@ static vsc_status order_tets(cutter *cut, vsc_error *error)
   return status;
 }
 
-// Cuts the ordered tets at changes of material and after patch_size elements. With first_tet NULL only
-// counts the patches.
+// Cuts the ordered tets at changes of material and after patch_size elements. With first_tet NULL
+// only counts the patches.
 static size_t cut_patches(const cutter *cut, uint32_t *first_tet)
 {
   const size_t tets = cut->mesh->tet_count, size = patch_size(tets);
@@ -77,8 +77,8 @@ static void count_patches_of_nodes(cutter *cut, size_t patches)
     }
 }
 
-// Numbers the nodes that belong to one patch, patch by patch, then the shared ones, each kind in the order
-// of first use.
+// Numbers the nodes that belong to one patch, patch by patch, then the shared ones, each kind in
+// the order of first use.
 static void number_nodes(cutter *cut, vsc_model *model)
 {
   uint32_t next = 0;
@@ -125,8 +125,8 @@ static vsc_status list_sums(vsc_model *model, vsc_error *error)
 {
   const size_t shared_nodes = model->node_count - model->own_node_count;
   uint32_t *next;
-  if (!VSC_NEW(model->sum_start, shared_nodes + 1) || !VSC_NEW(model->sum_place, model->partial_count) ||
-      !VSC_NEW(next, shared_nodes))
+  if (!VSC_NEW(model->sum_start, shared_nodes + 1) ||
+      !VSC_NEW(model->sum_place, model->partial_count) || !VSC_NEW(next, shared_nodes))
     return vsc_fail_memory(error, "shared nodes");
   for (size_t k = 0; k < model->partial_count; k++)
     model->sum_start[model->shared[k] - model->own_node_count + 1]++;
@@ -139,7 +139,8 @@ static vsc_status list_sums(vsc_model *model, vsc_error *error)
   return VSC_OK;
 }
 
-static void fill_slot(const cutter *cut, const vsc_axes *axes, uint32_t tet, size_t slot, vsc_model *model)
+static void fill_slot(const cutter *cut, const vsc_axes *axes, uint32_t tet, size_t slot,
+                      vsc_model *model)
 {
   static const double global_axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   vsc_pack *pack = &model->packs[slot / VSC_WIDTH];
@@ -188,14 +189,15 @@ static void start_patches(const cutter *cut, vsc_model *model)
   }
 }
 
-static vsc_status cut_and_fill(cutter *cut, const vsc_axes *axes, vsc_model *model, vsc_error *error)
+static vsc_status cut_and_fill(cutter *cut, const vsc_axes *axes, vsc_model *model,
+                               vsc_error *error)
 {
   const size_t nodes = cut->mesh->node_count;
   vsc_status status = order_tets(cut, error);
   if (status != VSC_OK) return status;
   model->patch_count = cut_patches(cut, NULL);
-  if (!VSC_NEW(cut->first_tet, model->patch_count + 1) || !VSC_NEW(model->patches, model->patch_count) ||
-      !VSC_NEW(model->mesh_node, nodes))
+  if (!VSC_NEW(cut->first_tet, model->patch_count + 1) ||
+      !VSC_NEW(model->patches, model->patch_count) || !VSC_NEW(model->mesh_node, nodes))
     return vsc_fail_memory(error, "patches");
   cut_patches(cut, cut->first_tet);
   start_patches(cut, model);
@@ -212,8 +214,8 @@ static vsc_status cut_and_fill(cutter *cut, const vsc_axes *axes, vsc_model *mod
   return status;
 }
 
-vsc_status vsc_patches_build(const vsc_mesh *mesh, const vsc_axes *axes, const uint32_t *material_of,
-                             vsc_model *model, vsc_error *error)
+vsc_status vsc_patches_build(const vsc_mesh *mesh, const vsc_axes *axes,
+                             const uint32_t *material_of, vsc_model *model, vsc_error *error)
 {
   cutter cut = {.mesh = mesh, .material_of = material_of};
   model->node_count = mesh->node_count;

@@ -5,14 +5,16 @@
 #include "base/mem.h"
 #include "model/terms.h"
 
-vsc_status vsc_terms_selections(const vsc_mesh *mesh, const vsc_definition *definition, vsc_model *model,
-                                vsc_error *error)
+vsc_status vsc_terms_selections(const vsc_mesh *mesh, const vsc_definition *definition,
+                                vsc_model *model, vsc_error *error)
 {
-  // the whole boundary goes first, under its own name, unless the user gave that name to something else
+  // the whole boundary goes first, under its own name, unless the user gave that name to something
+  // else
   bool taken = false;
   for (size_t s = 0; s < definition->surface_count; s++)
     taken |= strcmp(definition->surfaces[s].name, "boundary") == 0;
-  if (!VSC_NEW(model->surfaces, definition->surface_count + 1) || !VSC_NEW(model->sets, definition->set_count))
+  if (!VSC_NEW(model->surfaces, definition->surface_count + 1) ||
+      !VSC_NEW(model->sets, definition->set_count))
     return vsc_fail_memory(error, "surfaces and node sets");
   vsc_surface boundary = {0};
   vsc_status status = vsc_boundary(mesh, &boundary, error);
@@ -50,7 +52,8 @@ static const vsc_node_set *find_set(const vsc_model *model, const char *name)
   return NULL;
 }
 
-static void hold(vsc_model *model, const vsc_node_set *set, const int held[3], const uint32_t *number)
+static void hold(vsc_model *model, const vsc_node_set *set, const int held[3],
+                 const uint32_t *number)
 {
   for (size_t k = 0; k < set->count; k++)
     for (int i = 0; i < 3; i++)
@@ -75,7 +78,8 @@ vsc_status vsc_terms_supports(const vsc_definition *definition, vsc_model *model
     const vsc_support_def *support = &definition->supports[s];
     const vsc_node_set *set = find_set(model, support->set);
     if (set == NULL)
-      status = vsc_fail(error, VSC_INPUT, "supports[%zu].set: no node set is called '%s'; define it under node_sets",
+      status = vsc_fail(error, VSC_INPUT,
+                        "supports[%zu].set: no node set is called '%s'; define it under node_sets",
                         s, support->set);
     else
       hold(model, set, support->held, number);
@@ -91,15 +95,18 @@ static vsc_status add_pressure(const vsc_definition *definition, size_t p, const
   const vsc_pressure_def *def = &definition->pressures[p];
   const int surface = vsc_model_find_surface(model, def->surface);
   if (surface < 0)
-    return vsc_fail(error, VSC_INPUT, "pressures[%zu].surface: no surface is called '%s'; define it under surfaces",
+    return vsc_fail(error, VSC_INPUT,
+                    "pressures[%zu].surface: no surface is called '%s'; define it under surfaces",
                     p, def->surface);
   const vsc_surface *triangles = &model->surfaces[surface];
   vsc_pressure *load = &model->pressures[p];
   vsc_copy_name(load->surface, def->surface);
   load->peak = def->peak;
   load->triangle_count = triangles->count;
-  if (!VSC_NEW(load->triangles, 3 * triangles->count)) return vsc_fail_memory(error, "a pressure load");
-  for (size_t k = 0; k < 3 * triangles->count; k++) load->triangles[k] = number[triangles->triangles[k]];
+  if (!VSC_NEW(load->triangles, 3 * triangles->count))
+    return vsc_fail_memory(error, "a pressure load");
+  for (size_t k = 0; k < 3 * triangles->count; k++)
+    load->triangles[k] = number[triangles->triangles[k]];
   return vsc_curve_build(&def->curve, definition->end_time, &load->curve, error);
 }
 
@@ -120,7 +127,8 @@ vsc_status vsc_terms_loads(const vsc_definition *definition, vsc_model *model, v
   vsc_status status = add_weight(definition, model, error);
   if (status != VSC_OK || definition->pressure_count == 0) return status;
   model->pressure_count = definition->pressure_count;
-  if (!VSC_NEW(model->pressures, model->pressure_count)) return vsc_fail_memory(error, "pressure loads");
+  if (!VSC_NEW(model->pressures, model->pressure_count))
+    return vsc_fail_memory(error, "pressure loads");
   uint32_t *number = model_numbers(model, error);
   if (number == NULL) return VSC_SYSTEM;
   for (size_t p = 0; p < definition->pressure_count && status == VSC_OK; p++)

@@ -15,8 +15,8 @@ static uint32_t global_node(const vsc_model *model, const vsc_patch *patch, cons
                                   : model->shared[patch->first_shared + local - patch->own_count];
 }
 
-static vsc_status tet_values(const vsc_mesh *mesh, const char *name, size_t material, const char *key,
-                             const double **values, vsc_error *error)
+static vsc_status tet_values(const vsc_mesh *mesh, const char *name, size_t material,
+                             const char *key, const double **values, vsc_error *error)
 {
   *values = NULL;
   if (name[0] == '\0') return VSC_OK;
@@ -27,9 +27,10 @@ static vsc_status tet_values(const vsc_mesh *mesh, const char *name, size_t mate
   }
   char hint[256];
   vsc_arrays_hint(&mesh->tet_data, name, hint, sizeof hint);
-  return vsc_fail(error, VSC_INPUT,
-                  "materials[%zu].active.%s: the mesh has no cell array '%s' with one number per element%s",
-                  material, key, name, hint);
+  return vsc_fail(
+      error, VSC_INPUT,
+      "materials[%zu].active.%s: the mesh has no cell array '%s' with one number per element%s",
+      material, key, name, hint);
 }
 
 static vsc_status fill_activation(const vsc_mesh *mesh, const vsc_definition *definition, size_t m,
@@ -37,8 +38,10 @@ static vsc_status fill_activation(const vsc_mesh *mesh, const vsc_definition *de
 {
   const vsc_active_def *active = &definition->materials[m].active;
   const double *amplitudes, *delays;
-  vsc_status status = tet_values(mesh, active->amplitude_array, m, "amplitude_array", &amplitudes, error);
-  if (status == VSC_OK) status = tet_values(mesh, active->delay_array, m, "delay_array", &delays, error);
+  vsc_status status =
+      tet_values(mesh, active->amplitude_array, m, "amplitude_array", &amplitudes, error);
+  if (status == VSC_OK)
+    status = tet_values(mesh, active->delay_array, m, "delay_array", &delays, error);
   if (status != VSC_OK) return status;
   for (size_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];
@@ -51,7 +54,8 @@ static vsc_status fill_activation(const vsc_mesh *mesh, const vsc_definition *de
       const double delay = delays ? delays[tet] * active->delay_unit : 0;
       if (!isfinite(amplitude) || !isfinite(delay))
         return vsc_fail(error, VSC_INPUT,
-                        "materials[%zu].active: element %u has amplitude %g and delay %g ms; both must be finite",
+                        "materials[%zu].active: element %u has amplitude %g and delay %g ms; both "
+                        "must be finite",
                         m, mesh->tet_source[tet], amplitude, delay);
       if (model->amplitude) model->amplitude[slot] = model->known[slot] ? amplitude : 0;
       if (model->delay) model->delay[slot] = delay;
@@ -60,8 +64,8 @@ static vsc_status fill_activation(const vsc_mesh *mesh, const vsc_definition *de
   return VSC_OK;
 }
 
-vsc_status vsc_terms_activation(const vsc_mesh *mesh, const vsc_definition *definition, vsc_model *model,
-                                vsc_error *error)
+vsc_status vsc_terms_activation(const vsc_mesh *mesh, const vsc_definition *definition,
+                                vsc_model *model, vsc_error *error)
 {
   if (model->terms.active == VSC_ACTIVE_NONE) return VSC_OK;
   const size_t slots = VSC_WIDTH * model->pack_count;
@@ -72,7 +76,8 @@ vsc_status vsc_terms_activation(const vsc_mesh *mesh, const vsc_definition *defi
     amplitudes |= definition->materials[m].active.amplitude_array[0] != '\0';
     delays |= definition->materials[m].active.delay_array[0] != '\0';
   }
-  if ((amplitudes && !VSC_NEW(model->amplitude, slots)) || (delays && !VSC_NEW(model->delay, slots)))
+  if ((amplitudes && !VSC_NEW(model->amplitude, slots)) ||
+      (delays && !VSC_NEW(model->delay, slots)))
     return vsc_fail_memory(error, "the activation of the elements");
   if (!amplitudes && !delays) return VSC_OK;
   for (size_t m = 0; m < definition->material_count; m++) {
@@ -109,7 +114,8 @@ vsc_status vsc_terms_masses(const vsc_mesh *mesh, vsc_model *model, vsc_error *e
 vsc_status vsc_terms_volume_groups(vsc_model *model, vsc_error *error)
 {
   if (!model->terms.nodal_volume) return VSC_OK;
-  if (!VSC_NEW(model->group_volume, model->node_count) || !VSC_NEW(model->group_modulus, model->node_count))
+  if (!VSC_NEW(model->group_volume, model->node_count) ||
+      !VSC_NEW(model->group_modulus, model->node_count))
     return vsc_fail_memory(error, "volume groups");
   for (size_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];

@@ -9,8 +9,8 @@
 
 // amplitude and delay of each slot, where a material names cell arrays or is active in elements
 // without a known fibre (amplitude 0: passive).
-vsc_status vsc_terms_activation(const vsc_mesh *mesh, const vsc_definition *definition, vsc_model *model,
-                                vsc_error *error);
+vsc_status vsc_terms_activation(const vsc_mesh *mesh, const vsc_definition *definition,
+                                vsc_model *model, vsc_error *error);
 
 // Rest positions, lumped masses m_i = sum_e rho V_e / 4 and their inverses.
 vsc_status vsc_terms_masses(const vsc_mesh *mesh, vsc_model *model, vsc_error *error);
@@ -19,8 +19,8 @@ vsc_status vsc_terms_masses(const vsc_mesh *mesh, vsc_model *model, vsc_error *e
 vsc_status vsc_terms_volume_groups(vsc_model *model, vsc_error *error);
 
 // The named surfaces and node sets.
-vsc_status vsc_terms_selections(const vsc_mesh *mesh, const vsc_definition *definition, vsc_model *model,
-                                vsc_error *error);
+vsc_status vsc_terms_selections(const vsc_mesh *mesh, const vsc_definition *definition,
+                                vsc_model *model, vsc_error *error);
 
 // Held directions: inverse mass 0.
 vsc_status vsc_terms_supports(const vsc_definition *definition, vsc_model *model, vsc_error *error);

@@ -13,8 +13,9 @@
 #include "mesh/surface.h"
 #include "solve/explicit.h"
 
-static const char *const source_names[] = {"none", "map", "arrays", "constant", "helix", "horizontal",
-                                           "diagonal", "hemicircular", "helicoidal", "random"};
+static const char *const source_names[] = {"none",       "map",        "arrays",   "constant",
+                                           "helix",      "horizontal", "diagonal", "hemicircular",
+                                           "helicoidal", "random"};
 
 static void say_mesh(const vsc_problem *problem, FILE *out)
 {
@@ -22,16 +23,20 @@ static void say_mesh(const vsc_problem *problem, FILE *out)
   const vsc_mesh_report *report = &mesh->report;
   double low[3], high[3];
   vsc_mesh_box(mesh, low, high);
-  fprintf(out, "mesh       %s: %zu nodes, %zu tets, %zu triangles; 1 unit = %g mm\n", problem->scene->mesh_file,
-          mesh->node_count, mesh->tet_count, mesh->triangle_count, problem->scene->mesh_unit);
+  fprintf(out, "mesh       %s: %zu nodes, %zu tets, %zu triangles; 1 unit = %g mm\n",
+          problem->scene->mesh_file, mesh->node_count, mesh->tet_count, mesh->triangle_count,
+          problem->scene->mesh_unit);
   fprintf(out, "size       %.4g x %.4g x %.4g mm from (%.4g, %.4g, %.4g); tissue %.4g ml, %.4g g\n",
           high[0] - low[0], high[1] - low[1], high[2] - low[2], low[0], low[1], low[2],
           1e-3 * problem->model->total_volume, 1e-3 * problem->model->total_mass);
-  if (report->turned_tets + report->unused_nodes + report->ignored_cells + report->loose_triangles > 0)
-    fprintf(out, "set right  %zu left-handed tets turned, %zu unused nodes dropped, %zu loose triangles dropped, "
-                 "%zu other cells ignored%s%s\n",
-            report->turned_tets, report->unused_nodes, report->loose_triangles, report->ignored_cells,
-            report->ignored_kinds[0] ? ": " : "", report->ignored_kinds);
+  if (report->turned_tets + report->unused_nodes + report->ignored_cells + report->loose_triangles >
+      0)
+    fprintf(out,
+            "set right  %zu left-handed tets turned, %zu unused nodes dropped, %zu loose triangles "
+            "dropped, "
+            "%zu other cells ignored%s%s\n",
+            report->turned_tets, report->unused_nodes, report->loose_triangles,
+            report->ignored_cells, report->ignored_kinds[0] ? ": " : "", report->ignored_kinds);
 }
 
 static vsc_status say_quality(const vsc_problem *problem, FILE *out, vsc_error *error)
@@ -39,13 +44,15 @@ static vsc_status say_quality(const vsc_problem *problem, FILE *out, vsc_error *
   vsc_quality_summary q;
   const vsc_status status = vsc_mesh_quality(problem->mesh, &q, error);
   if (status != VSC_OK) return status;
-  fprintf(out, "quality    mean ratio %.2f (5 %% below %.2f, %zu poor); dihedral %.1f to %.1f deg; edges %.3g to %.3g mm\n",
-          q.mean_ratio_mean, q.mean_ratio_p5, q.poor, q.min_dihedral, q.max_dihedral, q.shortest_edge,
-          q.longest_edge);
+  fprintf(out,
+          "quality    mean ratio %.2f (5 %% below %.2f, %zu poor); dihedral %.1f to %.1f deg; "
+          "edges %.3g to %.3g mm\n",
+          q.mean_ratio_mean, q.mean_ratio_p5, q.poor, q.min_dihedral, q.max_dihedral,
+          q.shortest_edge, q.longest_edge);
   fprintf(out, "worst     ");
   for (size_t k = 0; k < q.worst_count && k < 3; k++)
-    fprintf(out, " element %u (%.2f) at (%.4g, %.4g, %.4g)%s", q.worst_source[k], q.worst[k].mean_ratio,
-            q.worst_centre[k][0], q.worst_centre[k][1], q.worst_centre[k][2],
+    fprintf(out, " element %u (%.2f) at (%.4g, %.4g, %.4g)%s", q.worst_source[k],
+            q.worst[k].mean_ratio, q.worst_centre[k][0], q.worst_centre[k][1], q.worst_centre[k][2],
             k + 1 < q.worst_count && k < 2 ? "," : "\n");
   return VSC_OK;
 }
@@ -72,43 +79,54 @@ static void say_supports(const vsc_problem *problem, FILE *out)
     const vsc_support_def *support = &definition->supports[s];
     size_t nodes = 0;
     for (size_t k = 0; k < problem->model->set_count; k++)
-      if (strcmp(problem->model->sets[k].name, support->set) == 0) nodes = problem->model->sets[k].count;
-    fprintf(out, " %s (%zu nodes) held in%s%s%s;", support->set, nodes, support->held[0] ? " x" : "",
-            support->held[1] ? " y" : "", support->held[2] ? " z" : "");
+      if (strcmp(problem->model->sets[k].name, support->set) == 0)
+        nodes = problem->model->sets[k].count;
+    fprintf(out, " %s (%zu nodes) held in%s%s%s;", support->set, nodes,
+            support->held[0] ? " x" : "", support->held[1] ? " y" : "",
+            support->held[2] ? " z" : "");
   }
-  fprintf(out, " %zu of %zu nodes in all\n", problem->model->held_count, problem->model->node_count);
+  fprintf(out, " %zu of %zu nodes in all\n", problem->model->held_count,
+          problem->model->node_count);
 }
 
 static void say_fibers(const vsc_problem *problem, FILE *out)
 {
   const vsc_fiber_report *f = &problem->fibers;
   const vsc_fiber_def *def = &problem->scene->fibers;
-  fprintf(out, "fibres     %s%s%s: %zu of %zu elements (%.1f %%), %zu filled from neighbours, %zu passive\n",
-          source_names[def->source], def->source == VSC_FIBER_MAP ? " " : "",
-          def->source == VSC_FIBER_MAP ? def->map.file : "", f->with_data, f->elements,
-          100.0 * (double)f->with_data / (double)f->elements, f->filled, f->passive);
+  fprintf(
+      out,
+      "fibres     %s%s%s: %zu of %zu elements (%.1f %%), %zu filled from neighbours, %zu passive\n",
+      source_names[def->source], def->source == VSC_FIBER_MAP ? " " : "",
+      def->source == VSC_FIBER_MAP ? def->map.file : "", f->with_data, f->elements,
+      100.0 * (double)f->with_data / (double)f->elements, f->filled, f->passive);
   if (def->source == VSC_FIBER_NONE) return;
-  fprintf(out, "angles     azimuth %.0f, %.0f, %.0f deg; elevation %.0f, %.0f, %.0f deg (10, 50, 90 %%)",
-          f->azimuth[0], f->azimuth[1], f->azimuth[2], f->elevation[0], f->elevation[1], f->elevation[2]);
+  fprintf(out,
+          "angles     azimuth %.0f, %.0f, %.0f deg; elevation %.0f, %.0f, %.0f deg (10, 50, 90 %%)",
+          f->azimuth[0], f->azimuth[1], f->azimuth[2], f->elevation[0], f->elevation[1],
+          f->elevation[2]);
   if (def->source == VSC_FIBER_MAP)
-    fprintf(out, "; agreement of an element's voxels %.2f, %.2f, %.2f of 1", f->coherence[0], f->coherence[1],
-            f->coherence[2]);
+    fprintf(out, "; agreement of an element's voxels %.2f, %.2f, %.2f of 1", f->coherence[0],
+            f->coherence[1], f->coherence[2]);
   fputc('\n', out);
 }
 
 static void say_material(const vsc_material *m, FILE *out)
 {
-  fprintf(out, "material   %s: %zu elements, %.4g ml; E_f,s,n %g, %g, %g; G_fs,sn,nf %g, %g, %g; K %g; own K of a "
-               "tet %g kPa; damping %g, %g, %g kPa ms\n",
-          m->name, m->element_count, 1e-3 * m->volume, m->axial[0], m->axial[1], m->axial[2], m->angular[0],
-          m->angular[1], m->angular[2], m->volume_modulus, m->element_modulus, m->damping[0], m->damping[1],
-          m->damping[2]);
+  fprintf(out,
+          "material   %s: %zu elements, %.4g ml; E_f,s,n %g, %g, %g; G_fs,sn,nf %g, %g, %g; K %g; "
+          "own K of a "
+          "tet %g kPa; damping %g, %g, %g kPa ms\n",
+          m->name, m->element_count, 1e-3 * m->volume, m->axial[0], m->axial[1], m->axial[2],
+          m->angular[0], m->angular[1], m->angular[2], m->volume_modulus, m->element_modulus,
+          m->damping[0], m->damping[1], m->damping[2]);
   if (m->active == VSC_ACTIVE_TENSION)
     fprintf(out, "active     %s: tension up to %g kPa, delay %g ms, period %g ms\n", m->name,
             m->tension * vsc_curve_peak(&m->curve), m->delay, m->curve.period);
   if (m->active == VSC_ACTIVE_SPRING)
-    fprintf(out, "active     %s: fibre modulus %g to %g kPa, rest stretch 1 to %g, delay %g ms, period %g ms\n", m->name,
-            m->axial[0], m->active_stiffness, m->rest_stretch, m->delay, m->curve.period);
+    fprintf(out,
+            "active     %s: fibre modulus %g to %g kPa, rest stretch 1 to %g, delay %g ms, period "
+            "%g ms\n",
+            m->name, m->axial[0], m->active_stiffness, m->rest_stretch, m->delay, m->curve.period);
 }
 
 static void say_terms(const vsc_model *model, FILE *out)
@@ -148,15 +166,19 @@ static void say_step(const vsc_problem *problem, vsc_state *state, FILE *out)
   double centre[3];
   const double bound = vsc_limit_bound(model, &state->scratch, &slot);
   vsc_mesh_tet_centre(problem->mesh, model->mesh_tet[slot], centre);
-  fprintf(out, "step       %.4g ms (%s); stable at rest %.4g ms with safety %g; limited most by element %u at (%.4g, %.4g, "
-               "%.4g), whose own bound is %.4g ms\n",
+  fprintf(out,
+          "step       %.4g ms (%s); stable at rest %.4g ms with safety %g; limited most by element "
+          "%u at (%.4g, %.4g, "
+          "%.4g), whose own bound is %.4g ms\n",
           dt, model->step > 0 ? "given" : "automatic", state->limit.step, model->safety,
-          problem->mesh->tet_source[model->mesh_tet[slot]], centre[0], centre[1], centre[2], 2 / sqrt(bound));
+          problem->mesh->tet_source[model->mesh_tet[slot]], centre[0], centre[1], centre[2],
+          2 / sqrt(bound));
 }
 
 static double memory_bytes(const vsc_model *model)
 {
-  const double per_tet = sizeof(vsc_pack) / 4.0 + 4 + 1 + (model->amplitude ? 8 : 0) + (model->delay ? 8 : 0) + 16 + 72 + 1;
+  const double per_tet = sizeof(vsc_pack) / 4.0 + 4 + 1 + (model->amplitude ? 8 : 0) +
+                         (model->delay ? 8 : 0) + 16 + 72 + 1;
   const double per_node = (32 + 8 + 32 + 16 + 4) + 32 * (5 + 3 + 3 + 1) + 8;
   return per_tet * (double)model->tet_count + per_node * (double)model->node_count;
 }
@@ -169,12 +191,16 @@ static void say_cost(const vsc_problem *problem, vsc_state *state, FILE *out)
   const double steps = model->end_time / dt, seconds = measure_step(model, state) * steps;
   const double frames = 1 + model->end_time / output->frame_interval;
   const double number = output->double_precision ? 8 : 4;
-  const double frame = 0.6 * number * (9.0 * (double)model->node_count + 6.0 * (double)model->tet_count) +
-                       6.0 * (double)model->tet_count;
-  fprintf(out, "cost       %.4g ms = about %.0f steps: %.3g s of work on %d thread%s (%s); %.3g MB of memory; %.0f "
-               "frames, about %.3g MB on disk\n",
-          model->end_time, steps, seconds, vsc_parallel_threads(), vsc_parallel_threads() > 1 ? "s" : "",
-          vsc_kernel_set(), 1e-6 * memory_bytes(model), frames, 1e-6 * frames * frame);
+  const double frame =
+      0.6 * number * (9.0 * (double)model->node_count + 6.0 * (double)model->tet_count) +
+      6.0 * (double)model->tet_count;
+  fprintf(out,
+          "cost       %.4g ms = about %.0f steps: %.3g s of work on %d thread%s (%s); %.3g MB of "
+          "memory; %.0f "
+          "frames, about %.3g MB on disk\n",
+          model->end_time, steps, seconds, vsc_parallel_threads(),
+          vsc_parallel_threads() > 1 ? "s" : "", vsc_kernel_set(), 1e-6 * memory_bytes(model),
+          frames, 1e-6 * frames * frame);
 }
 
 vsc_status vsc_check(const vsc_problem *problem, FILE *stream, int *warnings, vsc_error *error)
@@ -184,7 +210,8 @@ vsc_status vsc_check(const vsc_problem *problem, FILE *stream, int *warnings, vs
   say_mesh(problem, stream);
   vsc_status status = say_quality(problem, stream, error);
   if (status != VSC_OK) return status;
-  for (size_t s = 0; s < model->surface_count; s++) say_surface(problem, &model->surfaces[s], stream);
+  for (size_t s = 0; s < model->surface_count; s++)
+    say_surface(problem, &model->surfaces[s], stream);
   say_supports(problem, stream);
   say_fibers(problem, stream);
   for (size_t m = 0; m < model->material_count; m++) say_material(&model->materials[m], stream);

@@ -7,10 +7,10 @@
 
 #include "run/problem.h"
 
-// Writes to `stream`, in some twenty lines, what was read, where the fibres came from, which force terms
-// exist, the time step and the element that limits it, and what the run will cost (the time by doing a
-// few steps); then what looks suspicious, one line each beginning with "warning". *warnings (may be
-// NULL) is their number. Fails as vsc_start does.
+// Writes to `stream`, in some twenty lines, what was read, where the fibres came from, which force
+// terms exist, the time step and the element that limits it, and what the run will cost (the time
+// by doing a few steps); then what looks suspicious, one line each beginning with "warning".
+// *warnings (may be NULL) is their number. Fails as vsc_start does.
 vsc_status vsc_check(const vsc_problem *problem, FILE *stream, int *warnings, vsc_error *error);
 
 // Only the warnings, to `stream`, each with `prefix` before it. Returns their number.

@@ -23,10 +23,12 @@ static const struct {
 };
 enum { FIELDS = sizeof known_fields / sizeof known_fields[0] };
 
-static bool is_wanted(const vsc_output_def *output, const char *name, bool by_default, bool first_frame)
+static bool is_wanted(const vsc_output_def *output, const char *name, bool by_default,
+                      bool first_frame)
 {
   // the first frame shows the axes that were used
-  if (first_frame && (strcmp(name, "fiber") == 0 || strcmp(name, "sheet") == 0 || strcmp(name, "normal") == 0))
+  if (first_frame &&
+      (strcmp(name, "fiber") == 0 || strcmp(name, "sheet") == 0 || strcmp(name, "normal") == 0))
     return true;
   if (output->array_count == 0) return by_default;
   for (size_t k = 0; k < output->array_count; k++)
@@ -41,16 +43,16 @@ static double *region_values(const vsc_problem *problem)
   return array != NULL && array->components == 1 ? array->values : NULL;
 }
 
-// Reads the wanted fields into `arrays`; their values are owned by the caller. Returns their number, or -1
-// when memory is short.
+// Reads the wanted fields into `arrays`; their values are owned by the caller. Returns their
+// number, or -1 when memory is short.
 static int read_fields(vsc_session *session, bool first_frame, vsc_vtk_array *arrays)
 {
   const vsc_model *model = session->problem->model;
   int count = 0;
   for (int k = 0; k < FIELDS; k++) {
     const vsc_field field = known_fields[k].field;
-    if (!is_wanted(&session->problem->scene->output, known_fields[k].name, known_fields[k].by_default,
-                   first_frame))
+    if (!is_wanted(&session->problem->scene->output, known_fields[k].name,
+                   known_fields[k].by_default, first_frame))
       continue;
     if (field == VSC_FIELD_GROUP_RATIO && !model->terms.nodal_volume) continue;
     if (field == VSC_FIELD_ACTIVE_TENSION && model->terms.active == VSC_ACTIVE_NONE) continue;
@@ -64,7 +66,8 @@ static int read_fields(vsc_session *session, bool first_frame, vsc_vtk_array *ar
   return count;
 }
 
-static vsc_status write_frame(vsc_session *session, const char *file, bool first_frame, vsc_error *error)
+static vsc_status write_frame(vsc_session *session, const char *file, bool first_frame,
+                              vsc_error *error)
 {
   const vsc_mesh *mesh = session->problem->mesh;
   const vsc_output_def *output = &session->problem->scene->output;
@@ -78,8 +81,8 @@ static vsc_status write_frame(vsc_session *session, const char *file, bool first
   if (count < 0)
     status = vsc_fail_memory(error, "a frame");
   else
-    status = vsc_vtk_write_mesh(file, mesh->node_count, mesh->nodes, mesh->tet_count, mesh->tets, 0, NULL,
-                                (size_t)count, arrays, output->double_precision, error);
+    status = vsc_vtk_write_mesh(file, mesh->node_count, mesh->nodes, mesh->tet_count, mesh->tets, 0,
+                                NULL, (size_t)count, arrays, output->double_precision, error);
   for (int k = 0; k < (fields < 0 ? FIELDS : fields); k++) vsc_free((void *)arrays[k].values);
   return status;
 }

@@ -30,7 +30,8 @@ static vsc_status make_fibers(vsc_problem *problem, vsc_error *error)
   vsc_status status = vsc_boundary(problem->mesh, &boundary, error);
   size_t made = 0;
   while (status == VSC_OK && made < definition->surface_count) {
-    status = vsc_select_surface(problem->mesh, &boundary, &definition->surfaces[made], &surfaces[made], error);
+    status = vsc_select_surface(problem->mesh, &boundary, &definition->surfaces[made],
+                                &surfaces[made], error);
     made++;
   }
   if (status == VSC_OK)
@@ -62,8 +63,10 @@ vsc_status vsc_problem_load(const char *file, const char *const *settings, size_
     status = vsc_vtk_read_mesh(made->scene->mesh_file, made->scene->mesh_unit, &made->mesh, error);
   if (status == VSC_OK) status = in_scene(file, make_fibers(made, error), error);
   if (status == VSC_OK)
-    status = in_scene(file, vsc_model_build(made->mesh, made->axes, &made->scene->definition, &made->model, error),
-                      error);
+    status = in_scene(
+        file,
+        vsc_model_build(made->mesh, made->axes, &made->scene->definition, &made->model, error),
+        error);
   if (status != VSC_OK) {
     vsc_problem_free(made);
     return status;

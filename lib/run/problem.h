@@ -13,11 +13,12 @@ typedef struct vsc_problem {
   vsc_axes *axes;
   vsc_fiber_report fibers;  // where the axes came from
   vsc_model *model;
-  double load_seconds;      // wall clock of reading and building
+  double load_seconds;  // wall clock of reading and building
 } vsc_problem;
 
-// Reads the scene `file` with the `settings` (key=value, setting_count of them), its mesh and fibres, and builds
-// the model. Every check that needs no time step is done. The caller owns *problem.
+// Reads the scene `file` with the `settings` (key=value, setting_count of them), its mesh and
+// fibres, and builds the model. Every check that needs no time step is done. The caller owns
+// *problem.
 vsc_status vsc_problem_load(const char *file, const char *const *settings, size_t setting_count,
                             vsc_problem **problem, vsc_error *error);
 

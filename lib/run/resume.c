@@ -15,11 +15,12 @@ static void list_scalars(vsc_session *session, double *places[SCALARS])
   vsc_watch *watch = session->watch;
   vsc_ledger *ledger = watch->ledger;
   double *const list[SCALARS] = {
-      &state->time, &state->steps,                                                       // CLOCK
-      &limit->eigenvalue, &limit->step, &limit->time, &limit->interval, &limit->refreshes, // LIMIT
-      &limit->first,
-      &ledger->active, &ledger->pressure, &ledger->dissipated, &ledger->start, &ledger->calls,  // WORKS
-      &watch->rows, &watch->balance, &watch->energy_scale, &session->most_inverted};            // WATCH
+      &state->time,       &state->steps,  // CLOCK
+      &limit->eigenvalue, &limit->step,    &limit->time,         &limit->interval,
+      &limit->refreshes,  // LIMIT
+      &limit->first,      &ledger->active, &ledger->pressure,    &ledger->dissipated,
+      &ledger->start,     &ledger->calls,                                                   // WORKS
+      &watch->rows,       &watch->balance, &watch->energy_scale, &session->most_inverted};  // WATCH
   memcpy(places, list, sizeof list);
 }
 
@@ -102,7 +103,8 @@ void vsc_session_keep_good(vsc_session *session)
   double *arrays[4];
   list_arrays(session, arrays);
   take_scalars(session, session->good);
-  for (size_t k = 0; k < 4; k++) memcpy(session->good + SCALARS + k * count, arrays[k], count * sizeof(double));
+  for (size_t k = 0; k < 4; k++)
+    memcpy(session->good + SCALARS + k * count, arrays[k], count * sizeof(double));
 }
 
 void vsc_session_go_back(vsc_session *session)
@@ -113,5 +115,6 @@ void vsc_session_go_back(vsc_session *session)
   list_arrays(session, arrays);
   put_scalars(session, session->good);
   session->watch->rows = rows;  // what is written stays written
-  for (size_t k = 0; k < 4; k++) memcpy(arrays[k], session->good + SCALARS + k * count, count * sizeof(double));
+  for (size_t k = 0; k < 4; k++)
+    memcpy(arrays[k], session->good + SCALARS + k * count, count * sizeof(double));
 }

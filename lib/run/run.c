@@ -26,15 +26,16 @@ static void name_of_scene(const char *file, char name[VSC_NAME])
 static vsc_status make_directory(const char *path, vsc_error *error)
 {
   if (mkdir(path, 0777) == 0 || errno == EEXIST) return VSC_OK;
-  return vsc_fail(error, VSC_SYSTEM, "%s: the folder cannot be made: %s; choose another with -o", path,
-                  strerror(errno));
+  return vsc_fail(error, VSC_SYSTEM, "%s: the folder cannot be made: %s; choose another with -o",
+                  path, strerror(errno));
 }
 
 static vsc_status make_directories(const vsc_session *session, vsc_error *error)
 {
   char path[VSC_PATH];
   if (strlen(session->options->directory) > VSC_LONGEST_DIRECTORY)
-    return vsc_fail(error, VSC_INPUT, "%.60s...: a folder name of more than %d bytes; choose a shorter one with -o",
+    return vsc_fail(error, VSC_INPUT,
+                    "%.60s...: a folder name of more than %d bytes; choose a shorter one with -o",
                     session->options->directory, VSC_LONGEST_DIRECTORY);
   const vsc_status status = make_directory(session->options->directory, error);
   vsc_session_path(session, "frames", path);
@@ -53,7 +54,8 @@ static void remove_frames(const vsc_session *session, const vsc_pvd *old, size_t
 {
   for (size_t k = first; k < vsc_pvd_count(old); k++) {
     const char *frame = vsc_pvd_frame(old, k);
-    if (strncmp(frame, "frames/", 7) == 0 && strstr(frame, "..") == NULL) remove_file(session, frame);
+    if (strncmp(frame, "frames/", 7) == 0 && strstr(frame, "..") == NULL)
+      remove_file(session, frame);
   }
 }
 
@@ -93,8 +95,8 @@ static vsc_status open_watch(vsc_session *session, double keep_until, vsc_error 
   return vsc_watch_open(session->problem, path, keep_until, &session->watch, error);
 }
 
-// The time of the checkpoint must be known before the signals are opened, which trims them: so the state is
-// read first with a watch on no file.
+// The time of the checkpoint must be known before the signals are opened, which trims them: so the
+// state is read first with a watch on no file.
 static vsc_status resume(vsc_session *session, vsc_error *error)
 {
   vsc_status status = vsc_watch_open(session->problem, "/dev/null", -1, &session->watch, error);
@@ -111,7 +113,8 @@ static vsc_status resume(vsc_session *session, vsc_error *error)
 
 static vsc_status observe(vsc_session *session, vsc_error *error)
 {
-  const vsc_status status = vsc_watch_observe(session->problem, session->state, session->watch, error);
+  const vsc_status status =
+      vsc_watch_observe(session->problem, session->state, session->watch, error);
   session->most_inverted = fmax(session->most_inverted, session->watch->totals.inverted);
   if (status == VSC_OK) vsc_session_keep_good(session);
   return status;
@@ -162,8 +165,9 @@ static vsc_status go_to(vsc_session *session, double time, vsc_error *error)
   return status == VSC_OK ? observe(session, error) : status;
 }
 
-// To the next look. When energy does not balance there, because loads or vibrations have changed much since the
-// last look, the same way is gone again with closer looks; what does not balance then is coming apart.
+// To the next look. When energy does not balance there, because loads or vibrations have changed
+// much since the last look, the same way is gone again with closer looks; what does not balance
+// then is coming apart.
 static vsc_status go_to_look(vsc_session *session, double time, vsc_error *error)
 {
   const vsc_status status = go_to(session, time, error);
@@ -178,8 +182,8 @@ static vsc_status go_to_look(vsc_session *session, double time, vsc_error *error
   return go_to(session, time, error);
 }
 
-// Goes on to the first look at or after `stop`: looks, and with them the steps, are where they would be without
-// a stop.
+// Goes on to the first look at or after `stop`: looks, and with them the steps, are where they
+// would be without a stop.
 static vsc_status advance(vsc_session *session, double stop, vsc_error *error)
 {
   const vsc_output_def *output = &session->problem->scene->output;
@@ -193,10 +197,12 @@ static vsc_status advance(vsc_session *session, double stop, vsc_error *error)
     next = fmin(next, next_event(state->time, output->frame_interval, end));
     next = fmin(next, next_event(state->time, output->checkpoint_interval, end));
     status = go_to_look(session, next, error);
-    if (status == VSC_OK && is_event(next, output->signal_interval, end)) status = write_row(session, error);
+    if (status == VSC_OK && is_event(next, output->signal_interval, end))
+      status = write_row(session, error);
     if (status == VSC_OK && is_event(next, output->frame_interval, end))
       status = vsc_session_write_frame(session, error);
-    if (status == VSC_OK && output->checkpoint_interval > 0 && is_event(next, output->checkpoint_interval, end))
+    if (status == VSC_OK && output->checkpoint_interval > 0 &&
+        is_event(next, output->checkpoint_interval, end))
       status = vsc_session_save(session, error);
     if (status == VSC_OK && session->options->progress != NULL)
       session->options->progress(session->options->progress_context, state->time, end,
@@ -224,7 +230,8 @@ static void save_failure(vsc_session *session, vsc_run_result *result, const vsc
   if (session->pvd == NULL || session->watch == NULL || session->watch->rows == 0) return;
   vsc_session_go_back(session);
   const size_t frames = vsc_pvd_count(session->pvd);
-  if (frames == 0 || fabs(vsc_pvd_time(session->pvd, frames - 1) - 1e-3 * session->state->time) > 1e-9)
+  if (frames == 0 ||
+      fabs(vsc_pvd_time(session->pvd, frames - 1) - 1e-3 * session->state->time) > 1e-9)
     vsc_session_write_frame(session, NULL);
   vsc_session_save(session, NULL);
   fill_result(session, result);

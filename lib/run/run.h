@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The loop that the tools share: start or resume, advance from event to event, write signals, frames and
-// checkpoints, and leave a summary.
+// The loop that the tools share: start or resume, advance from event to event, write signals,
+// frames and checkpoints, and leave a summary.
 #ifndef VSC_RUN_RUN_H
 #define VSC_RUN_RUN_H
 
@@ -12,28 +12,28 @@
 typedef void vsc_progress(void *context, double time, double end, double wall_seconds);
 
 typedef struct vsc_run_options {
-  const char *directory;   // results go here; made when missing
-  bool resume;             // go on from the directory's checkpoint
-  double stop_time;        // ms; > 0: stop there (at the next row of signals or, if sooner, whole ms), leaving a
-                           // checkpoint, as if interrupted
+  const char *directory;  // results go here; made when missing
+  bool resume;            // go on from the directory's checkpoint
+  double stop_time;  // ms; > 0: stop there (at the next row of signals or, if sooner, whole ms),
+                     // leaving a checkpoint, as if interrupted
   vsc_progress *progress;  // may be NULL
   void *progress_context;
 } vsc_run_options;
 
 // What a run has done.
 typedef struct vsc_run_result {
-  double steps;             // of this call
-  double simulated;         // ms, of this call
+  double steps;      // of this call
+  double simulated;  // ms, of this call
   double wall_seconds, cpu_seconds;
-  double updates_per_second;// element updates per CPU second, everything included
-  size_t frames;            // in the series now
-  char series[VSC_PATH];    // the PVD file
+  double updates_per_second;  // element updates per CPU second, everything included
+  size_t frames;              // in the series now
+  char series[VSC_PATH];      // the PVD file
 } vsc_run_result;
 
-// Runs `problem` to its end. The directory then holds NAME.pvd and frames/, signals.csv, summary.json,
-// checkpoint.h5 and scene.yaml (the scene as understood), NAME being the scene file's name. A failed
-// run leaves the frames up to then, a frame and a checkpoint of the last good state, and the reason
-// in summary.json; the same reason is in `error`.
+// Runs `problem` to its end. The directory then holds NAME.pvd and frames/, signals.csv,
+// summary.json, checkpoint.h5 and scene.yaml (the scene as understood), NAME being the scene file's
+// name. A failed run leaves the frames up to then, a frame and a checkpoint of the last good state,
+// and the reason in summary.json; the same reason is in `error`.
 vsc_status vsc_run(vsc_problem *problem, const vsc_run_options *options, vsc_run_result *result,
                    vsc_error *error);
 

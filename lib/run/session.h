@@ -13,13 +13,13 @@ enum { VSC_LONGEST_DIRECTORY = VSC_PATH - VSC_NAME - 112 };
 typedef struct vsc_session {
   vsc_problem *problem;
   const vsc_run_options *options;
-  char name[VSC_NAME];      // the scene file's name without folder and ending
+  char name[VSC_NAME];  // the scene file's name without folder and ending
   vsc_state *state;
   vsc_watch *watch;
   vsc_pvd *pvd;
-  double *good;             // what vsc_session_keep_good has kept; owned
+  double *good;  // what vsc_session_keep_good has kept; owned
   double start_wall, start_cpu, start_steps, start_time;
-  double most_inverted;     // largest number of tets with J <= 0 at any row
+  double most_inverted;  // largest number of tets with J <= 0 at any row
 } vsc_session;
 
 // DIRECTORY/what, or DIRECTORY/NAME.what when `what` begins with a dot.
@@ -32,8 +32,8 @@ vsc_status vsc_session_write_frame(vsc_session *session, vsc_error *error);
 vsc_status vsc_session_save(vsc_session *session, vsc_error *error);
 vsc_status vsc_session_load(vsc_session *session, vsc_error *error);
 
-// Memory for the last good state; then: remembers the state and all that belongs to a checkpoint of it, or goes
-// back to what was remembered last.
+// Memory for the last good state; then: remembers the state and all that belongs to a checkpoint of
+// it, or goes back to what was remembered last.
 vsc_status vsc_session_make_good(vsc_session *session, vsc_error *error);
 void vsc_session_keep_good(vsc_session *session);
 void vsc_session_go_back(vsc_session *session);

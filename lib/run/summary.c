@@ -22,12 +22,14 @@ static void write_string(FILE *file, const char *key, const char *text, const ch
 // JSON knows no NaN and no infinity.
 static void write_number(FILE *file, const char *key, double value, const char *end)
 {
-  if (isfinite(value)) fprintf(file, "  \"%s\": %.10g%s\n", key, value, end);
-  else fprintf(file, "  \"%s\": null%s\n", key, end);
+  if (isfinite(value))
+    fprintf(file, "  \"%s\": %.10g%s\n", key, value, end);
+  else
+    fprintf(file, "  \"%s\": null%s\n", key, end);
 }
 
-static void write_body(const vsc_session *session, const vsc_run_result *result, const char *failure,
-                       FILE *file)
+static void write_body(const vsc_session *session, const vsc_run_result *result,
+                       const char *failure, FILE *file)
 {
   const vsc_problem *problem = session->problem;
   const vsc_model *model = problem->model;
@@ -45,7 +47,8 @@ static void write_body(const vsc_session *session, const vsc_run_result *result,
   write_number(file, "threads", vsc_parallel_threads(), ",");
   write_number(file, "nodes", (double)model->node_count, ",");
   write_number(file, "elements", (double)model->tet_count, ",");
-  write_number(file, "elements_with_fiber", (double)(problem->fibers.with_data + problem->fibers.filled), ",");
+  write_number(file, "elements_with_fiber",
+               (double)(problem->fibers.with_data + problem->fibers.filled), ",");
   write_number(file, "held_nodes", (double)model->held_count, ",");
   write_number(file, "mass_g", 1e-3 * model->total_mass, ",");
   write_number(file, "time_s", 1e-3 * session->state->time, ",");
@@ -61,8 +64,8 @@ static void write_body(const vsc_session *session, const vsc_run_result *result,
   fprintf(file, "  \"signals\": {\n");
   for (size_t k = 0; k < watch->signal_count; k++)
     if (isfinite(watch->low[k]) && isfinite(watch->high[k]))
-      fprintf(file, "    \"%s\": {\"min\": %.10g, \"max\": %.10g},\n", watch->names[k], watch->low[k],
-              watch->high[k]);
+      fprintf(file, "    \"%s\": {\"min\": %.10g, \"max\": %.10g},\n", watch->names[k],
+              watch->low[k], watch->high[k]);
   fprintf(file, "    \"rows\": %.0f\n  }\n", watch->rows);
 }
 
@@ -73,7 +76,8 @@ vsc_status vsc_session_summarize(const vsc_session *session, const vsc_run_resul
   vsc_session_path(session, "summary.json", path);
   snprintf(temporary, sizeof temporary, "%s.tmp", path);
   FILE *file = fopen(temporary, "w");
-  if (file == NULL) return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", path, strerror(errno));
+  if (file == NULL)
+    return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", path, strerror(errno));
   fputs("{\n", file);
   write_body(session, result, failure, file);
   fputs("}\n", file);

@@ -31,17 +31,27 @@ static double largest(const double three[3])
 
 static void warn_material(writer *w, const vsc_model *model, const vsc_material *material)
 {
-  const double stiff = largest(material->axial), shear = fmax(largest(material->angular), stiff / 2);
+  const double stiff = largest(material->axial),
+               shear = fmax(largest(material->angular), stiff / 2);
   const double K = material->volume_modulus;
   if (K > 0 && K < stiff)
-    warn(w, "material %s: volume_modulus %g kPa is below the stiffest axial modulus %g kPa: inverted elements "
-            "could rest there; 100 times the shear modulus is usual", material->name, K, stiff);
+    warn(w,
+         "material %s: volume_modulus %g kPa is below the stiffest axial modulus %g kPa: inverted "
+         "elements "
+         "could rest there; 100 times the shear modulus is usual",
+         material->name, K, stiff);
   if (!model->terms.nodal_volume && K > 20 * shear)
-    warn(w, "material %s: volume_modulus is %.0f times the shear modulus and each tet keeps its own volume: "
-            "linear tets lock; use `volume: nodal`", material->name, K / shear);
+    warn(w,
+         "material %s: volume_modulus is %.0f times the shear modulus and each tet keeps its own "
+         "volume: "
+         "linear tets lock; use `volume: nodal`",
+         material->name, K / shear);
   if (model->terms.nodal_volume && material->element_modulus == 0)
-    warn(w, "material %s: node-averaged volume without stabilization lets single elements collapse; set "
-            "stabilization to about the shear modulus (%g kPa)", material->name, shear);
+    warn(w,
+         "material %s: node-averaged volume without stabilization lets single elements collapse; "
+         "set "
+         "stabilization to about the shear modulus (%g kPa)",
+         material->name, shear);
   if (material->element_count == 0)
     warn(w, "material %s: no element has its regions", material->name);
 }
@@ -54,14 +64,22 @@ static void warn_fibers(writer *w, const vsc_problem *problem)
     warn(w, "fibers: %zu of %zu elements have no fibre and stay passive%s", f->passive, f->elements,
          def->fill ? "" : "; `fill: true` takes them from their neighbours");
   if (def->source == VSC_FIBER_MAP && f->filled > f->elements / 10)
-    warn(w, "fibers: %.0f %% of the elements took their fibre from neighbours: does the map cover the mesh, in the "
-            "same coordinates and unit?", 100.0 * (double)f->filled / (double)f->elements);
+    warn(w,
+         "fibers: %.0f %% of the elements took their fibre from neighbours: does the map cover the "
+         "mesh, in the "
+         "same coordinates and unit?",
+         100.0 * (double)f->filled / (double)f->elements);
   if (def->source == VSC_FIBER_MAP && f->coherence[1] < 0.3)
-    warn(w, "fibers: the voxels within an element hardly agree (median %.2f of 1): a noisy map, or a wrong scale or "
-            "angle convention", f->coherence[1]);
-  if (f->constant) warn(w, "fibers: the array holds one and the same direction everywhere: perhaps a dummy");
+    warn(w,
+         "fibers: the voxels within an element hardly agree (median %.2f of 1): a noisy map, or a "
+         "wrong scale or "
+         "angle convention",
+         f->coherence[1]);
+  if (f->constant)
+    warn(w, "fibers: the array holds one and the same direction everywhere: perhaps a dummy");
   if (f->worst_sheet_angle > 5)
-    warn(w, "fibers: sheet and fibre are up to %.0f degrees off a right angle: perhaps dummies", f->worst_sheet_angle);
+    warn(w, "fibers: sheet and fibre are up to %.0f degrees off a right angle: perhaps dummies",
+         f->worst_sheet_angle);
 }
 
 static void warn_setting(writer *w, const vsc_problem *problem)
@@ -71,14 +89,14 @@ static void warn_setting(writer *w, const vsc_problem *problem)
   vsc_mesh_box(problem->mesh, low, high);
   vsc_subtract(high, low, size);
   if (vsc_norm(size) < 5 || vsc_norm(size) > 1000)
-    warn(w, "mesh: its box is %.3g x %.3g x %.3g mm: is mesh.unit right?", size[0], size[1], size[2]);
+    warn(w, "mesh: its box is %.3g x %.3g x %.3g mm: is mesh.unit right?", size[0], size[1],
+         size[2]);
   const bool driven = model->pressure_count > 0 || model->terms.gravity;
   if (model->held_count == 0 && driven)
     warn(w, "supports: nothing is held, so the load will carry the body away");
   if (model->terms.active == VSC_ACTIVE_NONE && !driven)
     warn(w, "nothing will move: no active material, no pressure, no gravity");
-  if (!model->terms.damping)
-    warn(w, "materials: no damping, so vibrations never die away");
+  if (!model->terms.damping) warn(w, "materials: no damping, so vibrations never die away");
 }
 
 int vsc_check_warnings(const vsc_problem *problem, FILE *stream, const char *prefix)

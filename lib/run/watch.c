@@ -13,7 +13,8 @@
 #define ML 1e-3  // ml per mm^3
 
 // Writes one column of the row being made; at the first row also its name.
-static void put(vsc_watch *watch, const char *unit, double value, const char *name, const char *suffix)
+static void put(vsc_watch *watch, const char *unit, double value, const char *name,
+                const char *suffix)
 {
   if (watch->signal_count == VSC_SIGNALS) return;
   const size_t k = watch->signal_count++;
@@ -49,7 +50,8 @@ static void make_row(const vsc_problem *problem, vsc_state *state, vsc_watch *wa
         problem->scene->output.cavities[c]);
   put(watch, "ml", ML * t->volume, "wall_volume", "");
   for (size_t p = 0; p < model->pressure_count; p++)
-    put(watch, "kPa", vsc_model_pressure(model, p, state->time), "pressure_", model->pressures[p].surface);
+    put(watch, "kPa", vsc_model_pressure(model, p, state->time), "pressure_",
+        model->pressures[p].surface);
   put(watch, "kPa", t->tension_mean, "active_tension_mean", "");
   put(watch, "kPa", t->tension_high, "active_tension_max", "");
   put(watch, "1", t->stretch_low, "stretch_f_min", "");
@@ -80,7 +82,8 @@ static vsc_status make_cavities(const vsc_problem *problem, vsc_watch *watch, vs
   for (size_t c = 0; c < output->cavity_count && status == VSC_OK; c++) {
     const int s = vsc_model_find_surface(model, output->cavities[c]);
     if (s < 0) {
-      status = vsc_fail(error, VSC_INPUT, "output.cavities[%zu]: no surface is called '%s'; define it under surfaces",
+      status = vsc_fail(error, VSC_INPUT,
+                        "output.cavities[%zu]: no surface is called '%s'; define it under surfaces",
                         c, output->cavities[c]);
       break;
     }
@@ -88,7 +91,8 @@ static vsc_status make_cavities(const vsc_problem *problem, vsc_watch *watch, vs
     if (status != VSC_OK) break;
     watch->cavity_count++;
     vsc_cavity *cavity = &watch->cavities[c];
-    for (size_t k = 0; k < 3 * cavity->triangle_count; k++) cavity->triangles[k] = number[cavity->triangles[k]];
+    for (size_t k = 0; k < 3 * cavity->triangle_count; k++)
+      cavity->triangles[k] = number[cavity->triangles[k]];
     for (size_t k = 0; k < cavity->rim_start[cavity->rim_count]; k++)
       cavity->rim_nodes[k] = number[cavity->rim_nodes[k]];
   }
@@ -96,7 +100,8 @@ static vsc_status make_cavities(const vsc_problem *problem, vsc_watch *watch, vs
   return status;
 }
 
-// Copies the header and the rows up to `keep_until` (ms) to a new file that takes the old one's place.
+// Copies the header and the rows up to `keep_until` (ms) to a new file that takes the old one's
+// place.
 static vsc_status trim_rows(const char *file, double keep_until, vsc_error *error)
 {
   char temporary[VSC_PATH + 8], line[16384];
@@ -138,8 +143,8 @@ static double least_energy(const vsc_model *model)
   return energy;
 }
 
-vsc_status vsc_watch_open(const vsc_problem *problem, const char *file, double keep_until, vsc_watch **watch,
-                          vsc_error *error)
+vsc_status vsc_watch_open(const vsc_problem *problem, const char *file, double keep_until,
+                          vsc_watch **watch, vsc_error *error)
 {
   vsc_watch *made;
   *watch = NULL;
@@ -163,12 +168,15 @@ static vsc_status check_balance(const vsc_state *state, vsc_watch *watch, vsc_er
   const double error_now = vsc_balance_error(ledger, t), jump = fabs(error_now - watch->balance);
   const double stored = t->kinetic + t->axial + t->angular + t->volume_energy;
   watch->balance = error_now;
-  watch->energy_scale = fmax(fmax(watch->energy_scale, stored), fmax(fabs(ledger->active), fabs(ledger->pressure)));
-  if (isfinite(error_now) && (ledger->calls <= 1 || jump <= 0.05 * watch->energy_scale)) return VSC_OK;
-  return vsc_fail(error, VSC_NUMERICAL,
-                  "at %.6g ms the energy balance jumped by %.3g mJ, %.0f %% of the largest energy so far: the "
-                  "simulation is coming apart; take a smaller time.safety, more damping, or a smaller load",
-                  state->time, MJ * jump, 100 * jump / watch->energy_scale);
+  watch->energy_scale =
+      fmax(fmax(watch->energy_scale, stored), fmax(fabs(ledger->active), fabs(ledger->pressure)));
+  if (isfinite(error_now) && (ledger->calls <= 1 || jump <= 0.05 * watch->energy_scale))
+    return VSC_OK;
+  return vsc_fail(
+      error, VSC_NUMERICAL,
+      "at %.6g ms the energy balance jumped by %.3g mJ, %.0f %% of the largest energy so far: the "
+      "simulation is coming apart; take a smaller time.safety, more damping, or a smaller load",
+      state->time, MJ * jump, 100 * jump / watch->energy_scale);
 }
 
 static vsc_status write_row(vsc_watch *watch, vsc_error *error)
@@ -186,13 +194,15 @@ static vsc_status write_row(vsc_watch *watch, vsc_error *error)
   return VSC_OK;
 }
 
-vsc_status vsc_watch_observe(const vsc_problem *problem, vsc_state *state, vsc_watch *watch, vsc_error *error)
+vsc_status vsc_watch_observe(const vsc_problem *problem, vsc_state *state, vsc_watch *watch,
+                             vsc_error *error)
 {
   vsc_observe(problem->model, state, watch->ledger, false, &watch->totals);
   return check_balance(state, watch, error);
 }
 
-vsc_status vsc_watch_row(const vsc_problem *problem, vsc_state *state, vsc_watch *watch, vsc_error *error)
+vsc_status vsc_watch_row(const vsc_problem *problem, vsc_state *state, vsc_watch *watch,
+                         vsc_error *error)
 {
   make_row(problem, state, watch);
   for (size_t k = 0; k < watch->signal_count; k++) {
@@ -223,6 +233,7 @@ int vsc_watch_find(const vsc_watch *watch, const char *name)
 {
   const size_t length = strlen(name);
   for (size_t k = 0; k < watch->signal_count; k++)
-    if (strncmp(watch->names[k], name, length) == 0 && watch->names[k][length] == ' ') return (int)k;
+    if (strncmp(watch->names[k], name, length) == 0 && watch->names[k][length] == ' ')
+      return (int)k;
   return -1;
 }

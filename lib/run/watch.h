@@ -12,32 +12,33 @@
 enum { VSC_SIGNALS = 96, VSC_SIGNAL_NAME = 96 };
 
 typedef struct vsc_watch {
-  FILE *file;              // signals.csv, open for appending
-  vsc_ledger *ledger;      // owned
-  vsc_totals totals;       // of the last row
+  FILE *file;          // signals.csv, open for appending
+  vsc_ledger *ledger;  // owned
+  vsc_totals totals;   // of the last row
   size_t cavity_count;
-  vsc_cavity *cavities;    // with the model's node numbers; owned
-  size_t signal_count;     // columns
-  char names[VSC_SIGNALS][VSC_SIGNAL_NAME];  // "name [unit]"
-  double values[VSC_SIGNALS];                // the last row
+  vsc_cavity *cavities;                        // with the model's node numbers; owned
+  size_t signal_count;                         // columns
+  char names[VSC_SIGNALS][VSC_SIGNAL_NAME];    // "name [unit]"
+  double values[VSC_SIGNALS];                  // the last row
   double low[VSC_SIGNALS], high[VSC_SIGNALS];  // over all rows
   double rows;
-  double balance;          // balance error of the last row, uJ
-  double energy_scale;     // largest energy or work seen, uJ
+  double balance;       // balance error of the last row, uJ
+  double energy_scale;  // largest energy or work seen, uJ
 } vsc_watch;
 
 // Opens `file`, in which rows up to `keep_until` (ms; below 0: none) stay. The caller owns *watch.
-vsc_status vsc_watch_open(const vsc_problem *problem, const char *file, double keep_until, vsc_watch **watch,
-                          vsc_error *error);
+vsc_status vsc_watch_open(const vsc_problem *problem, const char *file, double keep_until,
+                          vsc_watch **watch, vsc_error *error);
 
-// Observes the state and carries the energy ledger on. VSC_NUMERICAL when the energy balance has jumped by
-// more than 5 % of the largest energy seen (at least that of 3 % strain everywhere): the simulation is
-// coming apart although all numbers are finite.
+// Observes the state and carries the energy ledger on. VSC_NUMERICAL when the energy balance has
+// jumped by more than 5 % of the largest energy seen (at least that of 3 % strain everywhere): the
+// simulation is coming apart although all numbers are finite.
 vsc_status vsc_watch_observe(const vsc_problem *problem, vsc_state *state, vsc_watch *watch,
                              vsc_error *error);
 
 // Appends what was observed last as a row.
-vsc_status vsc_watch_row(const vsc_problem *problem, vsc_state *state, vsc_watch *watch, vsc_error *error);
+vsc_status vsc_watch_row(const vsc_problem *problem, vsc_state *state, vsc_watch *watch,
+                         vsc_error *error);
 
 // Renews what the next row needs from a state that was read from a checkpoint, without writing.
 void vsc_watch_resume(const vsc_problem *problem, vsc_state *state, vsc_watch *watch);

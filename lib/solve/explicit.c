@@ -7,8 +7,8 @@
 #include "mech/force.h"
 #include "mech/step_limit.h"
 
-// The step is re-estimated at intervals between these, ms: twice as late while the eigenvalue stays within 2 %, twice
-// as soon when it moved by more than 10 %.
+// The step is re-estimated at intervals between these, ms: twice as late while the eigenvalue stays
+// within 2 %, twice as soon when it moved by more than 10 %.
 #define SHORTEST_TRUST 0.25
 #define LONGEST_TRUST 4.0
 // A stable step below this part of the first one belongs to a body that is torn or crushed.
@@ -35,13 +35,15 @@ static inline void drift_node(const motion *m, size_t n, vsc_wide a)
   v[n] += 0.5 * m->dt * a;
   x[n] += m->dt * v[n];
   // the velocity at the end of the step, as far as it is known now
-  if (m->model->terms.damping) ((vsc_wide *)m->state->scratch.predicted)[n] = v[n] + 0.5 * m->dt * a;
+  if (m->model->terms.damping)
+    ((vsc_wide *)m->state->scratch.predicted)[n] = v[n] + 0.5 * m->dt * a;
 }
 
 static inline vsc_wide kick_node(const motion *m, size_t n)
 {
   // a <- f / m;  v <- v + dt/2 a
-  const vsc_wide a = ((const vsc_wide *)m->model->inverse_mass)[n] * ((const vsc_wide *)m->state->force)[n];
+  const vsc_wide a =
+      ((const vsc_wide *)m->model->inverse_mass)[n] * ((const vsc_wide *)m->state->force)[n];
   ((vsc_wide *)m->state->v)[n] += 0.5 * m->dt * a;
   return a;
 }
@@ -108,10 +110,12 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
   const double stable = fmin(active_step, state->limit.step);
   if (!(stable > 0))
     return vsc_fail(error, VSC_NUMERICAL,
-                    "no stable time step was found: every node is held or nothing is stiff; check supports and moduli");
+                    "no stable time step was found: every node is held or nothing is stiff; check "
+                    "supports and moduli");
   if (model->step > stable)
     return vsc_fail(error, VSC_INPUT,
-                    "time.step: %.6g ms is above the stable step of %.6g ms (at rest %.6g, at full activation %.6g); "
+                    "time.step: %.6g ms is above the stable step of %.6g ms (at rest %.6g, at full "
+                    "activation %.6g); "
                     "use `step: auto` or a smaller step",
                     model->step, stable, state->limit.step, active_step);
   state->limit.time = state->time;
@@ -135,12 +139,14 @@ static vsc_status refresh_limit(const vsc_model *model, vsc_state *state, vsc_er
   limit->time = state->time;
   if (!isfinite(limit->eigenvalue) || limit->step < COLLAPSE * limit->first)
     return vsc_fail(error, VSC_NUMERICAL,
-                    "at %.6g ms the stable step has collapsed from %.3g to %.3g ms: elements are torn or crushed; take "
+                    "at %.6g ms the stable step has collapsed from %.3g to %.3g ms: elements are "
+                    "torn or crushed; take "
                     "more damping or a smaller load",
                     state->time, limit->first, limit->step);
   if (model->step > limit->step / model->safety)
     return vsc_fail(error, VSC_NUMERICAL,
-                    "at %.6g ms the tissue has become too stiff for time.step %.6g ms: the stable step is now %.6g ms; "
+                    "at %.6g ms the tissue has become too stiff for time.step %.6g ms: the stable "
+                    "step is now %.6g ms; "
                     "use `step: auto` or a smaller step",
                     state->time, model->step, limit->step);
   return VSC_OK;
@@ -151,11 +157,13 @@ static vsc_status check_finite(const vsc_model *model, const vsc_state *state, v
   const size_t bad = vsc_state_find_bad(model, state);
   if (bad == model->node_count) return VSC_OK;
   const double *rest = model->rest + 4 * bad;
-  return vsc_fail(error, VSC_NUMERICAL,
-                  "at %.6g ms (step %.0f) the position of node %u, at rest at (%.4g, %.4g, %.4g) mm, is no longer a "
-                  "finite number: the simulation has blown up; take a smaller time.safety, more damping, or a "
-                  "smaller load",
-                  state->time, state->steps, model->mesh_node[bad], rest[0], rest[1], rest[2]);
+  return vsc_fail(
+      error, VSC_NUMERICAL,
+      "at %.6g ms (step %.0f) the position of node %u, at rest at (%.4g, %.4g, %.4g) mm, is no "
+      "longer a "
+      "finite number: the simulation has blown up; take a smaller time.safety, more damping, or a "
+      "smaller load",
+      state->time, state->steps, model->mesh_node[bad], rest[0], rest[1], rest[2]);
 }
 
 vsc_status vsc_advance(const vsc_model *model, vsc_state *state, double until, vsc_error *error)

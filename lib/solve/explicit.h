@@ -5,9 +5,9 @@
 
 #include "mech/state.h"
 
-// Prepares a new state for stepping: the first estimate of the stable step, at rest and at full activation (the
-// smaller counts), and the first acceleration. Refuses (VSC_INPUT) a user's step above the stable
-// one, with both numbers.
+// Prepares a new state for stepping: the first estimate of the stable step, at rest and at full
+// activation (the smaller counts), and the first acceleration. Refuses (VSC_INPUT) a user's step
+// above the stable one, with both numbers.
 vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error);
 
 // `count` (at least 1) steps of length dt (ms), each

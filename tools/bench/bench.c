@@ -15,7 +15,8 @@
 
 static const char help[] =
     "Usage: viscera bench [OPTION]...\n"
-    "Million element updates per second: the best of five timings of whole explicit steps on a block of tets,\n"
+    "Million element updates per second: the best of five timings of whole explicit steps on a "
+    "block of tets,\n"
     "on one thread by processor time, on all threads by the wall clock.\n\n"
     "  -n, --tets N      a block of about N tets instead of 10 thousand and 1 million\n"
     "  -s, --shuffle     tets and nodes in random order, as from an unstructured file\n"
@@ -64,8 +65,8 @@ static void shuffle(vsc_mesh *mesh)
 }
 
 // Seconds of one step: the least of some timings.
-static vsc_status time_steps(const vsc_mesh *mesh, const bench_case *bench, int threads, double *seconds,
-                             vsc_error *error)
+static vsc_status time_steps(const vsc_mesh *mesh, const bench_case *bench, int threads,
+                             double *seconds, vsc_error *error)
 {
   vsc_material_def material = tissue(bench);
   vsc_definition definition = vsc_default_definition();
@@ -113,8 +114,8 @@ static vsc_status bench_block(size_t wanted, bool shuffled, vsc_error *error)
     if (status == VSC_OK) status = time_steps(mesh, &cases[k], all, &many, error);
     if (status != VSC_OK) break;
     const double tets = 1e-6 * (double)mesh->tet_count;
-    printf("%9zu tets  %-42s %6.1f on one thread  %6.1f on %d\n", mesh->tet_count, cases[k].name, tets / one,
-           tets / many, all);
+    printf("%9zu tets  %-42s %6.1f on one thread  %6.1f on %d\n", mesh->tet_count, cases[k].name,
+           tets / one, tets / many, all);
     fflush(stdout);
   }
   vsc_mesh_free(mesh);
@@ -130,10 +131,14 @@ int vsc_verb_bench(int argc, char **argv)
   long tets = 0;
   bool shuffled = false;
   for (int c; (c = getopt_long(argc, argv, "n:sh", options, NULL)) != -1;) {
-    if (c == 'n') tets = strtol(optarg, NULL, 10);
-    else if (c == 's') shuffled = true;
-    else if (c == 'h') return fputs(help, stdout) < 0 ? 4 : 0;
-    else return 2;
+    if (c == 'n')
+      tets = strtol(optarg, NULL, 10);
+    else if (c == 's')
+      shuffled = true;
+    else if (c == 'h')
+      return fputs(help, stdout) < 0 ? 4 : 0;
+    else
+      return 2;
     if (c == 'n' && (tets < 5 || tets > 100000000)) {
       fprintf(stderr, "viscera bench: --tets %s: expected a number from 5 to 100000000\n", optarg);
       return 2;
