@@ -10,14 +10,15 @@
 //   limit.step = safety . 2 / sqrt(1.1 lambda).
 // Velocity Verlet with the predicted velocity in the damping force is stable for
 // dt^2 k + 4 dt c <= 4, that is for dt = 2 / sqrt(lambda). Power iteration on differences of forces,
-// `iterations` of them, from the vector of the last estimate (random at the first).
+// `iterations` of them and more while the eigenvalue rises, from the vector of the last estimate,
+// stirred with noise: else a mode that becomes the stiffest elsewhere would be seen too late.
 void vsc_limit_refresh(const vsc_model *model, vsc_state *state, double time, int iterations);
 
 // An upper bound of lambda at rest without damping that needs no iteration, with the element behind it:
 //   lambda <= max_e sum_{i in e} D_i / M_i,  D_i = sum_e V (K + A) |B_i|^2
 // (the element eigenvalue with the assembled nodal mass shared in proportion to stiffness). `slot` is the
-// element that limits the step. A = max(E_a, 2 G_ab), active stiffness and tension included; with node-averaged
-// volume the bound holds too (the average is never stiffer), but is further off.
+// element that limits the step. A = max(E_a, 2 G_ab) with full activation; with node-averaged volume
+// K is the mean of the nodes' (the average of J is never stiffer), so that the bound is further off.
 double vsc_limit_bound(const vsc_model *model, vsc_scratch *scratch, size_t *slot);
 
 #endif
