@@ -36,9 +36,10 @@ static inline void random_rotation(uint64_t *seed, double R[9])
   } while (square > 1 || square < 0.01);
   for (int i = 0; i < 4; i++) q[i] /= sqrt(square);
   const double w = q[0], x = q[1], y = q[2], z = q[3];
-  const double rotation[9] = {1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),
-                              2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
-                              2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)};
+  const double rotation[9] = {
+      1 - 2 * (y * y + z * z), 2 * (x * y - w * z),     2 * (x * z + w * y),
+      2 * (x * y + w * z),     1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
+      2 * (x * z - w * y),     2 * (y * z + w * x),     1 - 2 * (x * x + y * y)};
   for (int i = 0; i < 9; i++) R[i] = rotation[i];
 }
 

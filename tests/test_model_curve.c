@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Curves of time against their formulas. A period of 1024 ms makes the table's places the multiples of
-// 1/8 ms, where the value must be the formula's to rounding; between them it is linear.
+// Curves of time against their formulas. A period of 1024 ms makes the table's places the multiples
+// of 1/8 ms, where the value must be the formula's to rounding; between them it is linear.
 #include <string.h>
 
 #include "close.h"
@@ -20,8 +20,10 @@ static vsc_curve build(const vsc_curve_def *definition, double end_time)
 typedef double formula(const vsc_curve_def *d, double time);
 
 // The table's places exactly, in all periods; between them the error of linear interpolation,
-// spacing^2/8 max|f''|, given as `between`, but for `kinks` of the formula: so many places may be off.
-static void compare(const vsc_curve_def *d, formula *expected, double rtol, double between, int kinks)
+// spacing^2/8 max|f''|, given as `between`, but for `kinks` of the formula: so many places may be
+// off.
+static void compare(const vsc_curve_def *d, formula *expected, double rtol, double between,
+                    int kinks)
 {
   vsc_curve curve = build(d, 3000);
   uint64_t seed = 31;
@@ -129,7 +131,8 @@ static void a_double_hill(void **state)
   compare(&d, hill, 1e-8, 3e-6, 0);
 }
 
-// "Scaled to peak 1" is a matter of the formula: a run that ends before the peak sees the same rise.
+// "Scaled to peak 1" is a matter of the formula: a run that ends before the peak sees the same
+// rise.
 static void the_peak_of_a_hill_does_not_depend_on_the_end(void **state)
 {
   (void)state;
@@ -207,7 +210,8 @@ static void not_a_number_is_no_index(void **state)
   vsc_curve_free(&curve);
 }
 
-static double table_times[] = {64, 128, 160, 256, 512, 640}, table_values[] = {0, 1, 1, 0.25, 0.5, -1};
+static double table_times[] = {64, 128, 160, 256, 512, 640},
+              table_values[] = {0, 1, 1, 0.25, 0.5, -1};
 
 static vsc_curve_def table_of(size_t count, double *times, double *values)
 {

@@ -99,8 +99,8 @@ static double difference_error(const law *l, const double G[9], const double D[9
   return fabs((energy_of(l, plus) - energy_of(l, minus)) / (2 * h) - dot9(P, D));
 }
 
-// (psi(G + hD) - psi(G - hD))/2h - P:D = h^2 psi'''/6 + O(h^4), summed over random directions D (in one of
-// them psi''' may vanish): halving h divides it by 4. The next term is some h^2 of it.
+// (psi(G + hD) - psi(G - hD))/2h - P:D = h^2 psi'''/6 + O(h^4), summed over random directions D (in
+// one of them psi''' may vanish): halving h divides it by 4. The next term is some h^2 of it.
 static void check_derivative(const law *l, const double G[9], uint64_t *seed)
 {
   enum { DIRECTIONS = 20, STEPS = 4 };
@@ -114,10 +114,10 @@ static void check_derivative(const law *l, const double G[9], uint64_t *seed)
 }
 
 static const double states[][9] = {
-    {1, 0, 0, 0, 1, 0, 0, 0, 1},              // rest
-    {1.4, 0, 0, 0, 0.9, 0, 0, 0, 0.8},        // stretch
-    {0.6, 0, 0, 0, 0.7, 0, 0, 0, 0.65},       // compression
-    {1, 0, 0, 0.5, 1, 0, -0.2, 0.3, 1},       // shear
+    {1, 0, 0, 0, 1, 0, 0, 0, 1},         // rest
+    {1.4, 0, 0, 0, 0.9, 0, 0, 0, 0.8},   // stretch
+    {0.6, 0, 0, 0, 0.7, 0, 0, 0, 0.65},  // compression
+    {1, 0, 0, 0.5, 1, 0, -0.2, 0.3, 1},  // shear
     {1.2, 0.3, -0.1, 0.2, 0.8, 0.4, -0.3, 0.1, 0.9},
 };
 enum { STATES = sizeof states / sizeof states[0] };
@@ -143,8 +143,10 @@ static void each_part_is_a_gradient_of_its_own(void **state)
   uint64_t seed = 12;
   for (int part = 0; part < 6; part++) {
     law one = {.rest = 0.9};
-    if (part < 3) one.axial[part] = 5;
-    else one.angular[part - 3] = 5;
+    if (part < 3)
+      one.axial[part] = 5;
+    else
+      one.angular[part - 3] = 5;
     check_derivative(&one, states[4], &seed);
   }
 }
@@ -195,7 +197,8 @@ static void the_stress_has_no_torque(void **state)
     for (int i = 0; i < 3; i++) {
       const int j = (i + 1) % 3, k = (i + 2) % 3;
       double torque = 0;
-      for (int a = 0; a < 3; a++) torque += G[3 * a + j] * P[3 * a + k] - G[3 * a + k] * P[3 * a + j];
+      for (int a = 0; a < 3; a++)
+        torque += G[3 * a + j] * P[3 * a + k] - G[3 * a + k] * P[3 * a + j];
       assert_close(torque, 0, 0, 1e-14 * size);
     }
   }
@@ -283,7 +286,8 @@ static void springs_of_two_mu_and_mu_are_isotropic(void **state)
 {
   (void)state;
   const double mu = 3, lambda = 11;
-  const law isotropic = {.axial = {2 * mu, 2 * mu, 2 * mu}, .angular = {mu, mu, mu}, .rest = 1, .K = lambda};
+  const law isotropic = {
+      .axial = {2 * mu, 2 * mu, 2 * mu}, .angular = {mu, mu, mu}, .rest = 1, .K = lambda};
   uint64_t seed = 16;
   for (int round = 0; round < 100; round++) {
     double D[9], slope[9];
@@ -347,8 +351,10 @@ static void degenerate_axes_are_left_out(void **state)
       for (int i = 0; i < 3; i++) G[3 * a + i] = i == 1 ? lengths[k] : 0;
       stress_of(&soft, G, P);
       for (int i = 0; i < 9; i++) {
-        if (i / 3 == a) assert_true(P[i] == 0);
-        else assert_close(P[i], without[i], 0, 1e-14);
+        if (i / 3 == a)
+          assert_true(P[i] == 0);
+        else
+          assert_close(P[i], without[i], 0, 1e-14);
       }
       assert_true(isfinite(energy_of(&soft, G)));
     }
@@ -358,7 +364,8 @@ static void degenerate_axes_are_left_out(void **state)
   for (int i = 0; i < 9; i++) assert_true(P[i] == 0);
 }
 
-// Just above the threshold a short axis has a direction, and the forces across it are large but finite.
+// Just above the threshold a short axis has a direction, and the forces across it are large but
+// finite.
 static void a_short_axis_is_still_an_axis(void **state)
 {
   (void)state;

@@ -28,7 +28,8 @@ static void area_coordinates(const double x[4][3], const int face[3], const doub
   }
 }
 
-// How far along `axis` from `centre` the plane of the face lies; infinite when the axis runs along it.
+// How far along `axis` from `centre` the plane of the face lies; infinite when the axis runs along
+// it.
 static double distance_to_face(const double x[4][3], const int face[3], const double centre[3],
                                const double axis[3])
 {
@@ -123,8 +124,8 @@ static void the_gradient_form_is_the_papers_construction(void **state)
 }
 
 // An axis that meets an edge or a vertex has no single face, but the same weights: the regular tet
-// with corners (1,1,1), (1,-1,-1), (-1,1,-1), (-1,-1,1). Its axis (1,1,1)/sqrt 3 runs from the vertex
-// at distance sqrt 3 to the face at -1/sqrt 3: chord 4/sqrt 3, weights (1, -1/3, -1/3, -1/3)
+// with corners (1,1,1), (1,-1,-1), (-1,1,-1), (-1,-1,1). Its axis (1,1,1)/sqrt 3 runs from the
+// vertex at distance sqrt 3 to the face at -1/sqrt 3: chord 4/sqrt 3, weights (1, -1/3, -1/3, -1/3)
 // . sqrt 3/4. Its axis z runs from edge to edge: chord 2, weights (1, -1, -1, 1)/2 . 1/2.
 static void axes_through_corners_and_edges_are_no_special_case(void **state)
 {
@@ -136,8 +137,7 @@ static void axes_through_corners_and_edges_are_no_special_case(void **state)
   double B[3][4];
   // edge vectors (-2,0,-2), (0,-2,-2), (-2,-2,0): determinant 16, volume 16/6
   assert_close(vsc_stencil_tet(x, frame, B), 8. / 3, 1e-15, 0);
-  for (int i = 0; i < 4; i++)
-    assert_close(B[0][i], (i == 0 ? 1 : -1. / 3) * sqrt(3) / 4, 1e-15, 0);
+  for (int i = 0; i < 4; i++) assert_close(B[0][i], (i == 0 ? 1 : -1. / 3) * sqrt(3) / 4, 1e-15, 0);
   vsc_stencil_tet(x, global, B);
   const double along_z[4] = {0.25, -0.25, -0.25, 0.25};
   for (int i = 0; i < 4; i++) assert_close(B[2][i], along_z[i], 1e-15, 0);

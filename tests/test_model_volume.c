@@ -49,7 +49,8 @@ static void k_is_the_bulk_modulus(void **state)
 {
   (void)state;
   const double h = 1e-3;
-  const double slope = (8 * (stress(1 + h) - stress(1 - h)) - stress(1 + 2 * h) + stress(1 - 2 * h)) / (12 * h);
+  const double slope =
+      (8 * (stress(1 + h) - stress(1 - h)) - stress(1 + 2 * h) + stress(1 - 2 * h)) / (12 * h);
   assert_close(slope, K, 1e-10, 0);
 }
 
@@ -58,7 +59,8 @@ static double difference_error(double J, double h)
   return fabs((energy(J + h) - energy(J - h)) / (2 * h) - stress(J));
 }
 
-// Above J0: error h^2/6 U''' = -h^2/6 K/J^3, order 2. Below, U is a parabola: no error but rounding.
+// Above J0: error h^2/6 U''' = -h^2/6 K/J^3, order 2. Below, U is a parabola: no error but
+// rounding.
 static void stress_is_the_derivative_of_energy(void **state)
 {
   (void)state;
@@ -66,7 +68,8 @@ static void stress_is_the_derivative_of_energy(void **state)
   for (int i = 0; i < 6; i++)
     for (int k = 7; k < 10; k++) {
       const double h = ldexp(above[i], -k);
-      assert_close(log2(difference_error(above[i], h) / difference_error(above[i], h / 2)), 2, 0, 0.01);
+      assert_close(log2(difference_error(above[i], h) / difference_error(above[i], h / 2)), 2, 0,
+                   0.01);
       // next term: h^4/120 U^(5), 24/20 (h/J)^2 of the first
       assert_close(difference_error(above[i], h), h * h / 6 * K / pow(above[i], 3), 2e-4, 1e-12);
     }
