@@ -350,6 +350,9 @@ static void legacy_files_that_lie(void **state)
   assert_no_mesh(write_legacy("4 0 1 2 3", "-4 0 1 2 3"), "announced");
   assert_no_mesh(write_legacy("4 0 1 2 3", "4 0 1 2"), "announced");
   assert_no_mesh(write_legacy("ASCII", "BINARY"), "");
+  assert_no_mesh(write_legacy("CELLS 1 5", "CELLS\"1 5"), "");
+  assert_no_mesh(write_legacy("CELLS 1 5\n4 0 1 2 3\n", ""), "no CELLS before");
+  assert_no_mesh(write_legacy("CELLS 1 5\n", "\nCELLS_ \n 1\n 7 "), "announced by CELLS 1 7");
   assert_no_mesh(write_legacy("UNSTRUCTURED_GRID", "UNSTRUCTURED_GRIT"), "");
 }
 

@@ -4,7 +4,6 @@
 #include <ctype.h>
 #include <errno.h>
 #include <stdbool.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -64,28 +63,33 @@ static const char *next_line(const char *at, const char *end)
   return newline != NULL ? newline + 1 : end;
 }
 
-static bool is_binary(const char *text, const char *end)
+// The start of the next word after the blank behind `at`, or `end`.
+static const char *next_word(const char *at, const char *end)
 {
-  const char *third = next_line(next_line(text, end), end);
-  return strncasecmp(third, "binary", 6) == 0;
+  while (at < end && !isspace((unsigned char)*at)) at++;
+  while (at < end && isspace((unsigned char)*at)) at++;
+  return at;
 }
 
-// `text` ends with a zero at `end`. Every line that looks like the list's header is checked: in a
-// binary file chance may make one, but hardly with two numbers and nothing else behind them.
+// `text` ends with a zero at `end`. The list is where a word begins with "cells" and two numbers
+// follow, as VTK sees it.
 static vsc_status check_text(const char *file, const char *text, const char *end, vsc_error *error)
 {
-  const bool binary = is_binary(text, end);
-  for (const char *line = text; line < end; line = next_line(line, end)) {
+  const char *word = next_line(next_line(text, end), end);
+  const bool binary = strncasecmp(word, "binary", 6) == 0;
+  for (; word < end; word = next_word(word, end)) {
     long long count, size;
     int used = 0;
-    if (strncasecmp(line, "cells ", 6) != 0) continue;
-    if (sscanf(line + 6, "%lld %lld%n", &count, &size, &used) != 2) continue;
-    const char *first = line + 6 + used;
-    while (first < end && *first != '\n' && isspace((unsigned char)*first)) first++;
-    if (first < end && *first != '\n') continue;
-    first = next_line(first, end);
-    if (strncasecmp(first, "offsets", 7) == 0) return VSC_OK;
-    if (!fills((reading){first, end, binary}, count, size))
+    if (strncasecmp(word, "cell_types", 10) == 0)
+      return vsc_fail(error, VSC_INPUT,
+                      "%s: has CELL_TYPES but no CELLS before them: write the file again", file);
+    if (strncasecmp(word, "cells", 5) != 0) continue;
+    const char *numbers = next_word(word, end);
+    if (sscanf(numbers, "%lld %lld%n", &count, &size, &used) != 2) continue;
+    const char *list = next_word(numbers + used, end);
+    if (strncasecmp(list, "offsets", 7) == 0) return VSC_OK;
+    if (binary) list = next_line(numbers + used, end);
+    if (!fills((reading){list, end, binary}, count, size))
       return vsc_fail(error, VSC_INPUT,
                       "%s: the cells do not fill the list announced by CELLS %lld %lld (cells, "
                       "numbers with the lengths): correct that line or write the file again",
