@@ -184,9 +184,11 @@ static void test_bad_numbers(void **state)
   static const struct {
     double first, fiber;
     const char *part;
-  } cases[] = {{NAN, 1, "(points 0)"},          {-INFINITY, 1, "(points 0)"},
+  } cases[] = {{NAN, 1, "(points 0)"},
+               {-INFINITY, 1, "(points 0)"},
                {10, 1, "two.vtu: "},  // two nodes at one place: no volume
-               {0, NAN, "no element has a fibre"}, {0, INFINITY, "no element has a fibre"},
+               {0, NAN, "no element has a fibre"},
+               {0, INFINITY, "no element has a fibre"},
                {0, 0, "no element has a fibre"}};
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     const broken bad = {"--set mesh.file=two.vtu", cases[k].part};
@@ -209,7 +211,8 @@ static void test_bad_cells(void **state)
     snprintf(
         text, sizeof text,
         "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n"
-        "0 0 0\n10 0 0\n0 10 0\n0 0 10\n9 9 9\nCELLS 2 10\n%s\n4 1 2 3 4\nCELL_TYPES 2\n10\n10\n",
+        "0 0 0\n10 0 0\n0 10 0\n0 0 10\n9 9 9\nCELLS 2 10\n%s\n4 1 2 3 4\nCELL_TYPES 2\n10\n10\n"
+        "CELL_DATA 2\nSCALARS region int\nLOOKUP_TABLE default\n1\n1\n",
         cells[k]);
     save_text("m.vtk", text);
     refused("block.yaml", &bad);
