@@ -349,6 +349,7 @@ static void legacy_files_that_lie(void **state)
   assert_no_mesh(write_legacy("CELLS 1 5", "CELLS 1 1000000000000"), "announced");
   assert_no_mesh(write_legacy("4 0 1 2 3", "-4 0 1 2 3"), "announced");
   assert_no_mesh(write_legacy("4 0 1 2 3", "4 0 1 2"), "announced");
+  assert_no_mesh(write_legacy("CELLS 1 5\n", "CELLS 2 5\n-1 "), "announced");
   assert_no_mesh(write_legacy("ASCII", "BINARY"), "");
   assert_no_mesh(write_legacy("CELLS 1 5", "CELLS\"1 5"), "");
   assert_no_mesh(write_legacy("CELLS 1 5\n4 0 1 2 3\n", ""), "no CELLS before");
