@@ -2,6 +2,7 @@
 // Each piece of work is done once, by a thread that has scratch memory of its own.
 #include "base/parallel.h"
 
+#include <pthread.h>
 #include <stdatomic.h>
 
 #include "close.h"
@@ -10,7 +11,8 @@ enum { PIECES = 1000, THREADS = 4 };
 
 typedef struct work {
   atomic_int done[PIECES];
-  atomic_int busy[THREADS];  // a thread does one piece at a time
+  atomic_int busy[THREADS];          // a thread does one piece at a time
+  _Atomic pthread_t owner[THREADS];  // and keeps its number
   atomic_int wrong;
   int threads;
 } work;
@@ -22,6 +24,10 @@ static void do_piece(void *context, size_t piece, int thread)
     w->wrong++;
     return;
   }
+  pthread_t owner = 0;
+  if (!atomic_compare_exchange_strong(&w->owner[thread], &owner, pthread_self()) &&
+      !pthread_equal(owner, pthread_self()))
+    w->wrong++;
   if (w->busy[thread]++ != 0) w->wrong++;
   w->done[piece]++;
   w->busy[thread]--;

@@ -286,7 +286,8 @@ static void test_unwritable_output(void **state)
   (void)state;
   must("echo file >taken; rm -rf results");
   assert_one_line("taken", shell("$V run block.yaml -q -o taken"), 4, "taken");
-  assert_one_line("deep", shell("$V run block.yaml -q -o no/such/folder"), 4, "no/such/folder");
+  assert_one_line("deep", shell("$V run block.yaml -q -o no/such/folder"), 4,
+                  "no/such/folder: the folder cannot be made");
   assert_one_line("proc", shell("$V run block.yaml -q -o /proc/viscera"), 4, "/proc/viscera");
   must("mkdir -p blocked/frames/block_00000.vtu/x");
   assert_one_line("frame", shell("$V run block.yaml -q -o blocked"), 4, "block_00000.vtu");
