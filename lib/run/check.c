@@ -219,7 +219,7 @@ vsc_status vsc_check(const vsc_problem *problem, FILE *stream, int *warnings, vs
   vsc_state *state;
   status = vsc_state_create(model, &state, error);
   if (status != VSC_OK) return status;
-  status = vsc_start(model, state, error);
+  status = vsc_in_scene(problem->scene->file, vsc_start(model, state, error), error);
   if (status == VSC_OK) {
     say_step(problem, state, stream);
     say_cost(problem, state, stream);

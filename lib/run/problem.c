@@ -43,8 +43,7 @@ static vsc_status make_fibers(vsc_problem *problem, vsc_error *error)
   return status;
 }
 
-// Puts the scene's file before a message that does not name it yet.
-static vsc_status in_scene(const char *file, vsc_status status, vsc_error *error)
+vsc_status vsc_in_scene(const char *file, vsc_status status, vsc_error *error)
 {
   if (status == VSC_OK || error == NULL || strstr(error->text, file) != NULL) return status;
   const vsc_error bare = *error;
@@ -61,9 +60,9 @@ vsc_status vsc_problem_load(const char *file, const char *const *settings, size_
   vsc_status status = vsc_scene_read(file, settings, setting_count, &made->scene, error);
   if (status == VSC_OK)
     status = vsc_vtk_read_mesh(made->scene->mesh_file, made->scene->mesh_unit, &made->mesh, error);
-  if (status == VSC_OK) status = in_scene(file, make_fibers(made, error), error);
+  if (status == VSC_OK) status = vsc_in_scene(file, make_fibers(made, error), error);
   if (status == VSC_OK)
-    status = in_scene(
+    status = vsc_in_scene(
         file,
         vsc_model_build(made->mesh, made->axes, &made->scene->definition, &made->model, error),
         error);

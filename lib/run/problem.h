@@ -24,6 +24,9 @@ vsc_status vsc_problem_load(const char *file, const char *const *settings, size_
 
 void vsc_problem_free(vsc_problem *problem);  // NULL is fine
 
+// Puts the scene's file before the text of an error that does not name it yet; returns `status`.
+vsc_status vsc_in_scene(const char *file, vsc_status status, vsc_error *error);
+
 // Seconds of the wall clock and of all threads' processor time, from an arbitrary start.
 double vsc_wall_seconds(void);
 double vsc_cpu_seconds(void);

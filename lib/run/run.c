@@ -136,7 +136,8 @@ static vsc_status start(vsc_session *session, vsc_error *error)
     if (status == VSC_OK) vsc_session_keep_good(session);
     return status;
   }
-  status = vsc_start(problem->model, session->state, error);
+  status =
+      vsc_in_scene(problem->scene->file, vsc_start(problem->model, session->state, error), error);
   if (status == VSC_OK) status = open_files(session, error);
   if (status == VSC_OK) status = open_watch(session, -1, error);
   if (status == VSC_OK) status = observe(session, error);
