@@ -324,6 +324,64 @@ static void the_bound_is_a_bound(void **state)
   }
 }
 
+// Two tets (0, x, y, z) and (0, y, x, -z) of unit edges: V = 1/6, |B_i|^2 = 3 at the origin,
+// else 1. With k the K + A of each tet: D_0 = 3V (k_1 + k_2), D_x = D_y = V (k_1 + k_2), D_z = V k;
+// masses rho V/2 of the three shared nodes and rho V/4: the bound is (10 (k_1 + k_2) + 4 k)/rho of
+// the stiffer.
+static double bound_of_two(const vsc_material_def materials[2], vsc_volume_kind volume)
+{
+  static const double nodes[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1};
+  static const uint32_t tets[8] = {0, 1, 2, 3, 0, 2, 1, 4};
+  vsc_mesh *mesh;
+  vsc_error error;
+  random_body body;
+  size_t slot = SIZE_MAX;
+  if (vsc_mesh_from_arrays(5, nodes, 2, tets, &mesh, &error) != VSC_OK) fail_msg("%s", error.text);
+  vsc_array *region = vsc_arrays_add(&mesh->tet_data, "region", 1, 2);
+  region->values[0] = 1;
+  region->values[1] = 2;
+  vsc_axes *axes = vsc_axes_create(2);
+  axes->known[0] = axes->known[1] = 1;
+  body_define(&body, mesh, axes, materials[0].active.kind, volume);
+  memcpy(body.materials, materials, sizeof body.materials);
+  body.definition.pressure_count = 0;
+  body_build(&body);
+  const double bound = vsc_limit_bound(body.model, &body.state->scratch, &slot);
+  dense d = dense_of(&body, 2 * RAMP_TIME);
+  assert_true(true_eigenvalue(d, 0) <= bound);
+  assert_int_equal(body.model->mesh_tet[slot], 1);
+  dense_free(d);
+  body_close(&body);
+  return bound;
+}
+
+static double expected_bound(double first, double second)
+{
+  return (10 * (first + second) + 4 * second) / 1.06;
+}
+
+static void the_bound_by_hand(void **state)
+{
+  (void)state;
+  vsc_material_def materials[2];
+  define_materials(materials, VSC_ACTIVE_NONE);
+  // muscle: E = 9, 6, 4, G = 3, 2, 5: A = max(9, 10), K = 50, Ks = 4;
+  // scar: E = 19, 16, 14, G = 5, 4, 7: A = 19, K = 150, Ks = 5
+  assert_close(bound_of_two(materials, VSC_VOLUME_ELEMENT), expected_bound(60, 169), 1e-13, 0);
+  // nodes: (50 + 150)/2 for the shared three, own for the fourth: (300 + 50)/4, (300 + 150)/4
+  assert_close(bound_of_two(materials, VSC_VOLUME_NODAL),
+               expected_bound(10 + 87.5 + 4, 19 + 112.5 + 5), 1e-13, 0);
+  define_materials(materials, VSC_ACTIVE_TENSION);
+  materials[0].active.amplitude_array[0] = materials[0].active.delay_array[0] = '\0';
+  // a tension of 25 stands on everything
+  assert_close(bound_of_two(materials, VSC_VOLUME_ELEMENT), expected_bound(85, 169), 1e-13, 0);
+  materials[0].active.kind = VSC_ACTIVE_SPRING;
+  materials[0].active.rest_stretch = 0.5;
+  materials[0].angular[0] = 30;
+  // E_f = 60 pulls with 30 beside 2 G = 60
+  assert_close(bound_of_two(materials, VSC_VOLUME_ELEMENT), expected_bound(140, 169), 1e-13, 0);
+}
+
 // The element that limits the step is a sliver, or touches one.
 static void the_bound_points_at_the_sliver(void **state)
 {
@@ -352,6 +410,7 @@ int main(void)
       cmocka_unit_test(held_directions_have_no_mode),
       cmocka_unit_test(stepping_is_stable_below_and_unstable_above),
       cmocka_unit_test(the_bound_is_a_bound),
+      cmocka_unit_test(the_bound_by_hand),
       cmocka_unit_test(the_bound_points_at_the_sliver),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
