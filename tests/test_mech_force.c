@@ -30,7 +30,7 @@ static void compare_with_oracle(random_body *body, double noise, uint64_t seed)
     const double size = largest_of(expected, count);
     assert_true(size > 0.1);
     // a node's force is the sum of some 24 tets' forces of that size
-    for (size_t i = 0; i < count; i++) assert_close(force[i], expected[i], 0, 1e-13 * size);
+    for (size_t i = 0; i < count; i++) assert_close(force[i], expected[i], 0, 1e-14 * size);
   }
   vsc_free(x);
   vsc_free(w);
@@ -248,7 +248,7 @@ static void forces_turn_with_the_body(void **state)
   for (size_t n = 0; n < nodes; n++) {
     double expected[3];
     rotate_vector(R, force + 3 * n, expected);
-    for (int i = 0; i < 3; i++) assert_close(turned[3 * n + i], expected[i], 0, 1e-13 * size);
+    for (int i = 0; i < 3; i++) assert_close(turned[3 * n + i], expected[i], 0, 1e-14 * size);
   }
   double *arrays[] = {x, w, turned_x, turned_w, force, turned};
   for (int i = 0; i < 6; i++) vsc_free(arrays[i]);
@@ -276,7 +276,7 @@ static void damping_dissipates_and_keeps_momenta(void **state)
     to_model(body.model, w, body.state->v);
     vsc_observe(body.model, body.state, body.ledger, false, &totals);
     assert_true(totals.dissipation > 0);
-    assert_close(dot_of(force, w, count), -totals.dissipation, 1e-11, 0);
+    assert_close(dot_of(force, w, count), -totals.dissipation, 1e-13, 0);
     vsc_free(w);
   }
   vsc_free(x);
@@ -302,7 +302,7 @@ static void rotation_is_not_damped(void **state)
   body_force(&body, x, NULL, 0, still);
   body_force(&body, x, w, 0, force);
   const double size = largest_of(still, count);
-  for (size_t i = 0; i < count; i++) assert_close(force[i], still[i], 0, 1e-13 * size);
+  for (size_t i = 0; i < count; i++) assert_close(force[i], still[i], 0, 1e-15 * size);
   vsc_free(x);
   vsc_free(w);
   vsc_free(still);
@@ -379,7 +379,7 @@ static void weight_is_mass_times_gravity(void **state)
     for (int i = 0; i < 3; i++) sum[i] += force[3 * n + i];
   // 64 mm^3 of 1.06 mg/mm^3
   for (int i = 0; i < 3; i++)
-    assert_close(sum[i], 64 * 1.06 * body.definition.gravity[i], 1e-12, 0);
+    assert_close(sum[i], 64 * 1.06 * body.definition.gravity[i], 1e-14, 0);
   for (size_t n = 0; n < nodes; n++)
     for (int i = 0; i < 3; i++)
       assert_close(force[3 * (size_t)body.model->mesh_node[n] + i],

@@ -217,7 +217,7 @@ static void compare_transformed(const transformation *to, vsc_active_kind kind,
   body_force(&other, other_x, other_w, 60, other_force);
   double *expected = transform_nodes(force, nodes, to);
   const double size = largest_of(force, 3 * nodes);
-  for (size_t i = 0; i < 3 * nodes; i++) assert_close(other_force[i], expected[i], 0, 1e-13 * size);
+  for (size_t i = 0; i < 3 * nodes; i++) assert_close(other_force[i], expected[i], 0, 1e-14 * size);
   double *arrays[] = {x, w, other_x, other_w, force, other_force, expected};
   for (int i = 0; i < 7; i++) vsc_free(arrays[i]);
   body_close(&body);
@@ -279,7 +279,7 @@ static void pressure_follows_its_face(void **state)
     if (mesh->nodes[3 * n] < 4 - 1e-9) assert_close(vsc_norm(force + 3 * n), 0, 0, 1e-12);
     for (int i = 0; i < 3; i++) sum[i] += force[3 * n + (size_t)i];
   }
-  for (int i = 0; i < 3; i++) assert_close(sum[i], -48 * normal[i], 0, 48e-13);
+  for (int i = 0; i < 3; i++) assert_close(sum[i], -48 * normal[i], 0, 48e-14);
   vsc_free(x);
   vsc_free(force);
   body_close(&body);

@@ -109,9 +109,9 @@ static void affine_positions_are_in_balance(void **state)
         x[i] += random_between(&seed, -0.08, 0.08);
       }
     }
-    // forces of 1e-13 on springs of some kPa mm: positions to some 1e-13 mm
+    // forces of 1e-13 on springs of some kPa mm: positions to some 1e-14 mm
     relax(&body, free, x, 0.85, 2e-13);
-    for (size_t i = 0; i < 3 * nodes; i++) assert_close(x[i], affine[i], 0, 1e-12);
+    for (size_t i = 0; i < 3 * nodes; i++) assert_close(x[i], affine[i], 0, 1e-13);
     vsc_free(x);
     vsc_free(affine);
     vsc_free(force);
@@ -186,7 +186,7 @@ static void check_modulus(const vsc_material_def *material, const double *expect
     double frame[9];
     frame_at(directions[d], frame);
     const double modulus = closed_form(material, directions[d]);
-    if (expected) assert_close(modulus, expected[d], 1e-12, 0);
+    if (expected) assert_close(modulus, expected[d], 1e-14, 0);
     for (size_t n = 2; n <= 8; n *= 2) {
       random_body body;
       open_uniform(&body, n, frame, material, volumes[n == 4]);

@@ -141,7 +141,7 @@ static void the_peak_of_a_hill_does_not_depend_on_the_end(void **state)
   for (double time = 0; time <= 64; time += 1)
     assert_close(vsc_curve_value(&beginning, time), vsc_curve_value(&whole, time), 1e-15, 0);
   // the table's places are 1/16 ms apart: the peak is met to (1/32)^2/2 f''
-  assert_close(vsc_curve_peak(&whole), 1, 1e-6, 0);
+  assert_close(vsc_curve_peak(&whole), 1, 1e-8, 0);
   assert_true(vsc_curve_peak(&whole) <= 1);
   vsc_curve_free(&whole);
   vsc_curve_free(&beginning);
@@ -259,7 +259,7 @@ static void a_table_of_a_line_is_a_line(void **state)
     d.period = PERIOD;
     vsc_curve curve = build(&d, 0);
     for (double time = times[5 - count]; time < 1024; time += 1.7)
-      assert_close(vsc_curve_value(&curve, time), 2 - time / 256, 1e-13, 1e-14);
+      assert_close(vsc_curve_value(&curve, time), 2 - time / 256, 1e-15, 1e-15);
     vsc_curve_free(&curve);
   }
 }
