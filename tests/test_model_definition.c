@@ -119,6 +119,8 @@ SPOIL(table_nan, d->materials[0].active.curve.values[1] = NAN)
 SPOIL(duration, d->pressures[0].curve.duration = 0)
 SPOIL(period, d->pressures[0].curve.period = 200)
 SPOIL(cut_off, d->pressures[0].curve.start = 600; d->pressures[0].curve.period = 800)
+SPOIL(early_start, d->pressures[0].curve.start = -10; d->pressures[0].curve.period = 800)
+SPOIL(long_table, d->materials[0].active.curve.period = 100)
 SPOIL(negative_period, d->pressures[0].curve.period = -1)
 SPOIL(rise, d->pressures[0].curve = vsc_default_curve(VSC_CURVE_DOUBLE_HILL);
       d->pressures[0].curve.rise = 0)
@@ -173,6 +175,8 @@ static void every_rule_names_its_key(void **state)
       {duration, "pressures[0].curve.duration: ", "above zero"},
       {period, "pressures[0].curve.period: 200 ms: ", "longer period"},
       {cut_off, "pressures[0].curve.period: 800 ms: ", "after the start"},
+      {early_start, "pressures[0].curve.start: -10 ms: ", "0 ms or later"},
+      {long_table, "materials[0].active.curve.period: 100 ms: ", "longer period"},
       {negative_period, "pressures[0].curve.period: ", "zero or more"},
       {rise, "pressures[0].curve.rise: ", "above zero"},
       {fall, "pressures[0].curve.fall: -20 ms: ", "above zero"},

@@ -99,6 +99,17 @@ static void test_cut_in_two(void **state)
   assert_same_runs("cut", "whole");
 }
 
+// A run that has come to its end goes on when the end is put off: curves without a period do not
+// depend on it.
+static void test_later_end(void **state)
+{
+  (void)state;
+  must("$V run block.yaml -o longer --set 'time.end=10 ms'");
+  assert_string_equal(summary("longer", "outcome"), "finished");
+  must("$V run block.yaml -o longer --resume");
+  assert_same_runs("longer", "whole");
+}
+
 // Cut at times that are no event, several times, once more at the end.
 static void test_cut_anywhere(void **state)
 {
@@ -275,6 +286,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_threads),
       cmocka_unit_test(test_cut_in_two),
+      cmocka_unit_test(test_later_end),
       cmocka_unit_test(test_cut_anywhere),
       cmocka_unit_test(test_older_checkpoint),
       cmocka_unit_test(test_trimmed_at_once),

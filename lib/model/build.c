@@ -118,13 +118,6 @@ static void count_materials(vsc_model *model)
   }
 }
 
-static uint64_t hash_curve(uint64_t hash, const vsc_curve *curve)
-{
-  hash = vsc_hash(hash, &curve->period, sizeof curve->period);
-  return curve->values ? vsc_hash(hash, curve->values, (curve->intervals + 1) * sizeof(double))
-                       : hash;
-}
-
 static void hash_model(vsc_model *model)
 {
   const size_t slots = VSC_WIDTH * model->pack_count;
@@ -139,14 +132,15 @@ static void hash_model(vsc_model *model)
   for (size_t m = 0; m < model->material_count; m++) {
     vsc_material plain = model->materials[m];
     memset(plain.name, 0, sizeof plain.name);
-    hash = hash_curve(hash, &plain.curve);
+    hash = vsc_hash(hash, &plain.curve.hash, sizeof plain.curve.hash);
     memset(&plain.curve, 0, sizeof plain.curve);
     hash = vsc_hash(hash, &plain.density, sizeof plain - offsetof(vsc_material, density));
   }
   for (size_t p = 0; p < model->pressure_count; p++) {
     const vsc_pressure *load = &model->pressures[p];
     hash = vsc_hash(hash, load->triangles, 3 * load->triangle_count * sizeof(uint32_t));
-    hash = hash_curve(vsc_hash(hash, &load->peak, sizeof load->peak), &load->curve);
+    hash = vsc_hash(hash, &load->peak, sizeof load->peak);
+    hash = vsc_hash(hash, &load->curve.hash, sizeof load->curve.hash);
   }
   hash = vsc_hash(hash, model->gravity, sizeof model->gravity);
   hash = vsc_hash(hash, &model->step, sizeof model->step);

@@ -5,9 +5,11 @@
 #include <gsl/gsl_spline.h>
 #include <math.h>
 
+#include "base/hash.h"
 #include "base/mem.h"
 
-enum { INTERVALS = 8192 };
+enum { INTERVALS_OF_PERIOD = 8192, MOST_INTERVALS = 1 << 20 };
+#define SPACING 0.015625  // ms; of a curve without period, doubled for runs of more than 16 s
 
 static double analytic_value(const vsc_curve_def *d, double time)
 {
@@ -65,7 +67,7 @@ static vsc_status tabulate_points(const vsc_curve_def *d, vsc_curve *curve, vsc_
     return vsc_fail(error, VSC_INPUT, "curve table: %zu points make no curve; give at least 2", n);
   }
   for (size_t k = 0; k <= curve->intervals; k++) {
-    const double time = curve->span * (double)k / (double)curve->intervals;
+    const double time = curve->spacing * (double)k;
     const double inside = fmin(fmax(time, d->times[0]), d->times[n - 1]);
     curve->values[k] = gsl_spline_eval(spline, inside, NULL);
   }
@@ -73,16 +75,42 @@ static vsc_status tabulate_points(const vsc_curve_def *d, vsc_curve *curve, vsc_
   return VSC_OK;
 }
 
+// A table's places do not depend on when the run ends, so that a run can be resumed to a later end.
+static void place_table(const vsc_curve_def *d, double end_time, vsc_curve *curve)
+{
+  if (d->kind == VSC_CURVE_CONSTANT) {
+    curve->intervals = 1;
+    curve->spacing = 1;
+  } else if (d->period > 0) {
+    curve->intervals = INTERVALS_OF_PERIOD;
+    curve->spacing = d->period / INTERVALS_OF_PERIOD;
+  } else {
+    curve->spacing = SPACING;
+    while (end_time / curve->spacing > MOST_INTERVALS) curve->spacing *= 2;
+    curve->intervals = (size_t)fmax(ceil(end_time / curve->spacing), 1);
+  }
+}
+
+static uint64_t hash_definition(const vsc_curve_def *d)
+{
+  const double numbers[] = {d->kind,       d->start,      d->duration, d->rise,       d->fall,
+                            d->rise_power, d->fall_power, d->period,   d->point_count};
+  uint64_t hash = vsc_hash(VSC_HASH_START, numbers, sizeof numbers);
+  if (d->kind != VSC_CURVE_TABLE) return hash;
+  hash = vsc_hash(hash, d->times, d->point_count * sizeof *d->times);
+  return vsc_hash(hash, d->values, d->point_count * sizeof *d->values);
+}
+
 vsc_status vsc_curve_build(const vsc_curve_def *d, double end_time, vsc_curve *curve,
                            vsc_error *error)
 {
-  *curve = (vsc_curve){.period = d->period, .span = d->period > 0 ? d->period : end_time};
-  curve->intervals = d->kind == VSC_CURVE_CONSTANT ? 1 : INTERVALS;
+  *curve = (vsc_curve){.period = d->period, .hash = hash_definition(d)};
+  place_table(d, end_time, curve);
   if (!VSC_NEW(curve->values, curve->intervals + 1)) return vsc_fail_memory(error, "a curve");
   if (d->kind == VSC_CURVE_TABLE) return tabulate_points(d, curve, error);
   const double peak = d->kind == VSC_CURVE_DOUBLE_HILL ? hill_peak(d) : 1;
   for (size_t k = 0; k <= curve->intervals; k++)
-    curve->values[k] = analytic_value(d, curve->span * (double)k / (double)curve->intervals) / peak;
+    curve->values[k] = analytic_value(d, curve->spacing * (double)k) / peak;
   return VSC_OK;
 }
 
@@ -95,10 +123,10 @@ void vsc_curve_free(vsc_curve *curve)
 double vsc_curve_value(const vsc_curve *curve, double time)
 {
   if (!(time > 0)) return curve->values[0];
-  const double local = curve->period > 0 ? fmod(time, curve->period) : fmin(time, curve->span);
-  const double place = local / curve->span * (double)curve->intervals;
-  size_t k = (size_t)place;
-  if (k >= curve->intervals) k = curve->intervals - 1;
+  const double local = curve->period > 0 ? fmod(time, curve->period) : time;
+  const double place = local / curve->spacing;
+  if (!(place < (double)curve->intervals)) return curve->values[curve->intervals];
+  const size_t k = (size_t)place;
   const double part = place - (double)k;
   return curve->values[k] + part * (curve->values[k + 1] - curve->values[k]);
 }

@@ -4,16 +4,18 @@
 #define VSC_MODEL_CURVE_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/status.h"
 #include "model/definition.h"
 
 // Values at equal distances over one period (or over the whole run), linear between them.
 typedef struct vsc_curve {
-  double period;    // ms; 0: not periodic, flat outside the table
-  double span;      // ms that the table covers
+  double period;   // ms; 0: not periodic, flat behind the table
+  double spacing;  // ms between two values
   size_t intervals;
-  double *values;   // intervals + 1, owned
+  double *values;  // intervals + 1, owned
+  uint64_t hash;   // of the definition, which does not know when the run ends
 } vsc_curve;
 
 // Tabulates `definition` over its period, or over [0, end_time] when it has none.

@@ -82,7 +82,12 @@ static void check_curve(checker *c, const vsc_curve_def *curve)
   need(c, curve->period == 0 || !lasting || curve->start + curve->duration <= curve->period,
        "curve.period", curve->period, "ms",
        "shorter than the duration after the start: give a longer period, or 0 ms for none");
+  need(c, curve->period == 0 || curve->start >= 0, "curve.start", curve->start, "ms",
+       "a curve with a period starts at 0 ms or later");
   if (curve->kind == VSC_CURVE_TABLE) check_table(c, curve);
+  if (curve->kind == VSC_CURVE_TABLE && curve->point_count > 0)
+    need(c, curve->period == 0 || curve->times[curve->point_count - 1] <= curve->period,
+         "curve.period", curve->period, "ms", "shorter than the table; give a longer period");
 }
 
 static void check_active(checker *c, size_t item, const vsc_active_def *active)

@@ -96,7 +96,7 @@ static double busiest_time(const vsc_model *model)
     for (size_t k = 0; curve->values && k <= curve->intervals; k++)
       if (curve->values[k] > most) {
         most = curve->values[k];
-        busiest = curve->span * (double)k / (double)curve->intervals + model->materials[m].delay;
+        busiest = curve->spacing * (double)k + model->materials[m].delay;
       }
   }
   return busiest;
