@@ -3,7 +3,7 @@
 
 #include "base/mem.h"
 #include "io/vtk.h"
-#include "run/session.h"
+#include "run/job.h"
 
 // What a frame can hold: names are those of the scene's output.arrays.
 static const struct {
@@ -45,14 +45,14 @@ static double *region_values(const vsc_problem *problem)
 
 // Reads the wanted fields into `arrays`; their values are owned by the caller. Returns their
 // number, or -1 when memory is short.
-static int read_fields(vsc_session *session, bool first_frame, vsc_vtk_array *arrays)
+static int read_fields(vsc_job *job, bool first_frame, vsc_vtk_array *arrays)
 {
-  const vsc_model *model = session->problem->model;
+  const vsc_model *model = job->problem->model;
   int count = 0;
   for (int k = 0; k < FIELDS; k++) {
     const vsc_field field = known_fields[k].field;
-    if (!is_wanted(&session->problem->scene->output, known_fields[k].name,
-                   known_fields[k].by_default, first_frame))
+    if (!is_wanted(&job->problem->scene->output, known_fields[k].name, known_fields[k].by_default,
+                   first_frame))
       continue;
     if (field == VSC_FIELD_GROUP_RATIO && !model->terms.nodal_volume) continue;
     if (field == VSC_FIELD_ACTIVE_TENSION && model->terms.active == VSC_ACTIVE_NONE) continue;
@@ -60,21 +60,20 @@ static int read_fields(vsc_session *session, bool first_frame, vsc_vtk_array *ar
     const int components = vsc_field_components(field);
     double *values;
     if (!VSC_NEW(values, components * (on_nodes ? model->node_count : model->tet_count))) return -1;
-    vsc_read_field(model, session->state, field, values);
+    vsc_read_field(model, job->state, field, values);
     arrays[count++] = (vsc_vtk_array){known_fields[k].name, components, values, on_nodes, false};
   }
   return count;
 }
 
-static vsc_status write_frame(vsc_session *session, const char *file, bool first_frame,
-                              vsc_error *error)
+static vsc_status write_frame(vsc_job *job, const char *file, bool first_frame, vsc_error *error)
 {
-  const vsc_mesh *mesh = session->problem->mesh;
-  const vsc_output_def *output = &session->problem->scene->output;
+  const vsc_mesh *mesh = job->problem->mesh;
+  const vsc_output_def *output = &job->problem->scene->output;
   vsc_vtk_array arrays[FIELDS + 1] = {0};
-  const int fields = read_fields(session, first_frame, arrays);
+  const int fields = read_fields(job, first_frame, arrays);
   int count = fields;
-  double *regions = region_values(session->problem);
+  double *regions = region_values(job->problem);
   if (count >= 0 && regions != NULL && is_wanted(output, "region", true, first_frame))
     arrays[count++] = (vsc_vtk_array){"region", 1, regions, false, true};
   vsc_status status;
@@ -87,13 +86,13 @@ static vsc_status write_frame(vsc_session *session, const char *file, bool first
   return status;
 }
 
-vsc_status vsc_session_write_frame(vsc_session *session, vsc_error *error)
+vsc_status vsc_job_write_frame(vsc_job *job, vsc_error *error)
 {
   char path[VSC_PATH], frame[VSC_NAME + 64];
-  const size_t number = vsc_pvd_count(session->pvd);
-  snprintf(frame, sizeof frame, "frames/%s_%05zu.vtu", session->name, number);
-  vsc_session_path(session, frame, path);
-  const vsc_status status = write_frame(session, path, number == 0, error);
+  const size_t number = vsc_pvd_count(job->pvd);
+  snprintf(frame, sizeof frame, "frames/%s_%05zu.vtu", job->name, number);
+  vsc_job_path(job, frame, path);
+  const vsc_status status = write_frame(job, path, number == 0, error);
   if (status != VSC_OK) return status;
-  return vsc_pvd_add(session->pvd, 1e-3 * session->state->time, frame, error);
+  return vsc_pvd_add(job->pvd, 1e-3 * job->state->time, frame, error);
 }

@@ -3,45 +3,45 @@
 
 #include "base/mem.h"
 #include "io/checkpoint.h"
-#include "run/session.h"
+#include "run/job.h"
 
 // Scalars of a checkpoint, in the order of list_scalars.
 enum { CLOCK = 0, LIMIT = 2, WORKS = 8, WATCH = 13, SCALARS = 17, BLOCKS = 9 };
 
-static void list_scalars(vsc_session *session, double *places[SCALARS])
+static void list_scalars(vsc_job *job, double *places[SCALARS])
 {
-  vsc_state *state = session->state;
+  vsc_state *state = job->state;
   vsc_limit *limit = &state->limit;
-  vsc_watch *watch = session->watch;
+  vsc_watch *watch = job->watch;
   vsc_ledger *ledger = watch->ledger;
   double *const list[SCALARS] = {
       &state->time,       &state->steps,  // CLOCK
       &limit->eigenvalue, &limit->step,    &limit->time,         &limit->interval,
       &limit->refreshes,  // LIMIT
       &limit->first,      &ledger->active, &ledger->pressure,    &ledger->dissipated,
-      &ledger->start,     &ledger->calls,                                                   // WORKS
-      &watch->rows,       &watch->balance, &watch->energy_scale, &session->most_inverted};  // WATCH
+      &ledger->start,     &ledger->calls,                                               // WORKS
+      &watch->rows,       &watch->balance, &watch->energy_scale, &job->most_inverted};  // WATCH
   memcpy(places, list, sizeof list);
 }
 
-static void take_scalars(vsc_session *session, double scalars[SCALARS])
+static void take_scalars(vsc_job *job, double scalars[SCALARS])
 {
   double *places[SCALARS];
-  list_scalars(session, places);
+  list_scalars(job, places);
   for (int k = 0; k < SCALARS; k++) scalars[k] = *places[k];
 }
 
-static void put_scalars(vsc_session *session, const double scalars[SCALARS])
+static void put_scalars(vsc_job *job, const double scalars[SCALARS])
 {
   double *places[SCALARS];
-  list_scalars(session, places);
+  list_scalars(job, places);
   for (int k = 0; k < SCALARS; k++) *places[k] = scalars[k];
 }
 
-static void list_blocks(vsc_session *session, double scalars[SCALARS], vsc_block blocks[BLOCKS])
+static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[BLOCKS])
 {
-  vsc_state *state = session->state;
-  const size_t nodes = session->problem->model->node_count;
+  vsc_state *state = job->state;
+  const size_t nodes = job->problem->model->node_count;
   const vsc_block list[BLOCKS] = {
       {"position", "mm", nodes, 4, state->x},
       {"velocity", "mm/ms", nodes, 4, state->v},
@@ -51,7 +51,7 @@ static void list_blocks(vsc_session *session, double scalars[SCALARS], vsc_block
       {"step_limit", "1/ms^2, ms, ms, ms, 1, ms", WORKS - LIMIT, 1, scalars + LIMIT},
       {"works", "uJ, uJ, uJ, uJ, 1", WATCH - WORKS, 1, scalars + WORKS},
       {"watch", "1, uJ, uJ, 1", SCALARS - WATCH, 1, scalars + WATCH},
-      {"signal_extrema", "as signals.csv", 2 * VSC_SIGNALS, 1, session->watch->low},
+      {"signal_extrema", "as signals.csv", 2 * VSC_SIGNALS, 1, job->watch->low},
   };
   memcpy(blocks, list, sizeof list);
 }
@@ -59,62 +59,62 @@ static void list_blocks(vsc_session *session, double scalars[SCALARS], vsc_block
 _Static_assert(offsetof(vsc_watch, high) == offsetof(vsc_watch, low) + VSC_SIGNALS * sizeof(double),
                "signal_extrema covers low and high in one block");
 
-vsc_status vsc_session_save(vsc_session *session, vsc_error *error)
+vsc_status vsc_job_save(vsc_job *job, vsc_error *error)
 {
   double scalars[SCALARS];
   vsc_block blocks[BLOCKS];
   char path[VSC_PATH];
-  take_scalars(session, scalars);
-  list_blocks(session, scalars, blocks);
-  vsc_session_path(session, "checkpoint.h5", path);
-  return vsc_checkpoint_write(path, session->problem->model->hash, BLOCKS, blocks, error);
+  take_scalars(job, scalars);
+  list_blocks(job, scalars, blocks);
+  vsc_job_path(job, "checkpoint.h5", path);
+  return vsc_checkpoint_write(path, job->problem->model->hash, BLOCKS, blocks, error);
 }
 
-vsc_status vsc_session_load(vsc_session *session, vsc_error *error)
+vsc_status vsc_job_load(vsc_job *job, vsc_error *error)
 {
   double scalars[SCALARS];
   vsc_block blocks[BLOCKS];
   char path[VSC_PATH];
-  list_blocks(session, scalars, blocks);
-  vsc_session_path(session, "checkpoint.h5", path);
+  list_blocks(job, scalars, blocks);
+  vsc_job_path(job, "checkpoint.h5", path);
   const vsc_status status =
-      vsc_checkpoint_read(path, session->problem->model->hash, BLOCKS, blocks, error);
-  if (status == VSC_OK) put_scalars(session, scalars);
+      vsc_checkpoint_read(path, job->problem->model->hash, BLOCKS, blocks, error);
+  if (status == VSC_OK) put_scalars(job, scalars);
   return status;
 }
 
 // The four arrays of a state that a checkpoint holds.
-static void list_arrays(vsc_session *session, double *arrays[4])
+static void list_arrays(vsc_job *job, double *arrays[4])
 {
-  vsc_state *state = session->state;
+  vsc_state *state = job->state;
   double *const list[4] = {state->x, state->v, state->a, state->limit.mode};
   memcpy(arrays, list, sizeof list);
 }
 
-vsc_status vsc_session_make_good(vsc_session *session, vsc_error *error)
+vsc_status vsc_job_make_good(vsc_job *job, vsc_error *error)
 {
-  if (VSC_NEW(session->good, SCALARS + 16 * session->problem->model->node_count)) return VSC_OK;
+  if (VSC_NEW(job->good, SCALARS + 16 * job->problem->model->node_count)) return VSC_OK;
   return vsc_fail_memory(error, "the last good state");
 }
 
-void vsc_session_keep_good(vsc_session *session)
+void vsc_job_keep_good(vsc_job *job)
 {
-  const size_t count = 4 * session->problem->model->node_count;
+  const size_t count = 4 * job->problem->model->node_count;
   double *arrays[4];
-  list_arrays(session, arrays);
-  take_scalars(session, session->good);
+  list_arrays(job, arrays);
+  take_scalars(job, job->good);
   for (size_t k = 0; k < 4; k++)
-    memcpy(session->good + SCALARS + k * count, arrays[k], count * sizeof(double));
+    memcpy(job->good + SCALARS + k * count, arrays[k], count * sizeof(double));
 }
 
-void vsc_session_go_back(vsc_session *session)
+void vsc_job_go_back(vsc_job *job)
 {
-  const size_t count = 4 * session->problem->model->node_count;
-  const double rows = session->watch->rows;
+  const size_t count = 4 * job->problem->model->node_count;
+  const double rows = job->watch->rows;
   double *arrays[4];
-  list_arrays(session, arrays);
-  put_scalars(session, session->good);
-  session->watch->rows = rows;  // what is written stays written
+  list_arrays(job, arrays);
+  put_scalars(job, job->good);
+  job->watch->rows = rows;  // what is written stays written
   for (size_t k = 0; k < 4; k++)
-    memcpy(arrays[k], session->good + SCALARS + k * count, count * sizeof(double));
+    memcpy(arrays[k], job->good + SCALARS + k * count, count * sizeof(double));
 }

@@ -6,7 +6,7 @@
 
 #include "base/parallel.h"
 #include "mech/kernel.h"
-#include "run/session.h"
+#include "run/job.h"
 
 // A text as a JSON string.
 static void write_string(FILE *file, const char *key, const char *text, const char *end)
@@ -28,22 +28,22 @@ static void write_number(FILE *file, const char *key, double value, const char *
     fprintf(file, "  \"%s\": null%s\n", key, end);
 }
 
-static void write_body(const vsc_session *session, const vsc_run_result *result,
-                       const char *failure, FILE *file)
+static void write_body(const vsc_job *job, const vsc_run_result *result, const char *failure,
+                       FILE *file)
 {
-  const vsc_problem *problem = session->problem;
+  const vsc_problem *problem = job->problem;
   const vsc_model *model = problem->model;
-  const vsc_watch *watch = session->watch;
+  const vsc_watch *watch = job->watch;
   write_string(file, "program", "viscera " VISCERA_VERSION, ",");
   write_string(file, "scene", problem->scene->file, ",");
   write_string(file, "mesh", problem->scene->mesh_file, ",");
-  const bool ended = session->state->time >= model->end_time;
+  const bool ended = job->state->time >= model->end_time;
   write_string(file, "outcome", failure ? "failed" : ended ? "finished" : "stopped", ",");
   if (failure) write_string(file, "reason", failure, ",");
   write_string(file, "kernel", vsc_kernel_set(), ",");
   fprintf(file, "  \"model_hash\": \"%016llx\",\n", (unsigned long long)model->hash);
   fprintf(file, "  \"state_hash\": \"%016llx\",\n",
-          (unsigned long long)vsc_state_hash(model, session->state));
+          (unsigned long long)vsc_state_hash(model, job->state));
   write_number(file, "threads", vsc_parallel_threads(), ",");
   write_number(file, "nodes", (double)model->node_count, ",");
   write_number(file, "elements", (double)model->tet_count, ",");
@@ -51,11 +51,11 @@ static void write_body(const vsc_session *session, const vsc_run_result *result,
                (double)(problem->fibers.with_data + problem->fibers.filled), ",");
   write_number(file, "held_nodes", (double)model->held_count, ",");
   write_number(file, "mass_g", 1e-3 * model->total_mass, ",");
-  write_number(file, "time_s", 1e-3 * session->state->time, ",");
-  write_number(file, "steps", session->state->steps, ",");
+  write_number(file, "time_s", 1e-3 * job->state->time, ",");
+  write_number(file, "steps", job->state->steps, ",");
   write_number(file, "steps_this_run", result->steps, ",");
-  write_number(file, "step_estimates", session->state->limit.refreshes, ",");
-  write_number(file, "most_inverted_elements", session->most_inverted, ",");
+  write_number(file, "step_estimates", job->state->limit.refreshes, ",");
+  write_number(file, "most_inverted_elements", job->most_inverted, ",");
   write_number(file, "frames", (double)result->frames, ",");
   write_number(file, "load_seconds", problem->load_seconds, ",");
   write_number(file, "wall_seconds", result->wall_seconds, ",");
@@ -69,17 +69,17 @@ static void write_body(const vsc_session *session, const vsc_run_result *result,
   fprintf(file, "    \"rows\": %.0f\n  }\n", watch->rows);
 }
 
-vsc_status vsc_session_summarize(const vsc_session *session, const vsc_run_result *result,
-                                 const char *failure, vsc_error *error)
+vsc_status vsc_job_summarize(const vsc_job *job, const vsc_run_result *result, const char *failure,
+                             vsc_error *error)
 {
   char path[VSC_PATH], temporary[VSC_PATH + 8];
-  vsc_session_path(session, "summary.json", path);
+  vsc_job_path(job, "summary.json", path);
   snprintf(temporary, sizeof temporary, "%s.tmp", path);
   FILE *file = fopen(temporary, "w");
   if (file == NULL)
     return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", path, strerror(errno));
   fputs("{\n", file);
-  write_body(session, result, failure, file);
+  write_body(job, result, failure, file);
   fputs("}\n", file);
   if (fclose(file) != 0 || rename(temporary, path) != 0)
     return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", path, strerror(errno));

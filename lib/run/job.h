@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A run under way, and the files it writes. Internal to the run room.
-#ifndef VSC_RUN_SESSION_H
-#define VSC_RUN_SESSION_H
+#ifndef VSC_RUN_JOB_H
+#define VSC_RUN_JOB_H
 
 #include "io/pvd.h"
 #include "run/run.h"
@@ -10,36 +10,36 @@
 // Bytes of the name of a run's folder; a slash and a file's name come behind it.
 enum { VSC_LONGEST_DIRECTORY = VSC_PATH - VSC_NAME - 112 };
 
-typedef struct vsc_session {
+typedef struct vsc_job {
   vsc_problem *problem;
   const vsc_run_options *options;
   char name[VSC_NAME];  // the scene file's name without folder and ending
   vsc_state *state;
   vsc_watch *watch;
   vsc_pvd *pvd;
-  double *good;  // what vsc_session_keep_good has kept; owned
+  double *good;  // what vsc_job_keep_good has kept; owned
   double start_wall, start_cpu, start_steps, start_time;
   double most_inverted;  // largest number of tets with J <= 0 at any row
-} vsc_session;
+} vsc_job;
 
 // DIRECTORY/what, or DIRECTORY/NAME.what when `what` begins with a dot.
-void vsc_session_path(const vsc_session *session, const char *what, char path[VSC_PATH]);
+void vsc_job_path(const vsc_job *job, const char *what, char path[VSC_PATH]);
 
 // Writes the current state as a VTU frame and adds it to the PVD.
-vsc_status vsc_session_write_frame(vsc_session *session, vsc_error *error);
+vsc_status vsc_job_write_frame(vsc_job *job, vsc_error *error);
 
 // Writes or reads DIRECTORY/checkpoint.h5.
-vsc_status vsc_session_save(vsc_session *session, vsc_error *error);
-vsc_status vsc_session_load(vsc_session *session, vsc_error *error);
+vsc_status vsc_job_save(vsc_job *job, vsc_error *error);
+vsc_status vsc_job_load(vsc_job *job, vsc_error *error);
 
 // Memory for the last good state; then: remembers the state and all that belongs to a checkpoint of
 // it, or goes back to what was remembered last.
-vsc_status vsc_session_make_good(vsc_session *session, vsc_error *error);
-void vsc_session_keep_good(vsc_session *session);
-void vsc_session_go_back(vsc_session *session);
+vsc_status vsc_job_make_good(vsc_job *job, vsc_error *error);
+void vsc_job_keep_good(vsc_job *job);
+void vsc_job_go_back(vsc_job *job);
 
 // Writes DIRECTORY/summary.json; `failure` is NULL for a run that has reached its end.
-vsc_status vsc_session_summarize(const vsc_session *session, const vsc_run_result *result,
-                                 const char *failure, vsc_error *error);
+vsc_status vsc_job_summarize(const vsc_job *job, const vsc_run_result *result, const char *failure,
+                             vsc_error *error);
 
 #endif
