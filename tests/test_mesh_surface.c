@@ -54,7 +54,7 @@ static vsc_surface inner_wall(const vsc_mesh *mesh)
   return boundary;
 }
 
-static void check_cavity(int (*solid)(int, int, int), size_t rims, double volume, double cap_area)
+static void check_cavity(int (*solid)(int, int, int), size_t rims, double volume)
 {
   vsc_mesh *mesh = box_mesh(SIZE, 1, solid);
   vsc_surface wall = inner_wall(mesh);
@@ -62,9 +62,6 @@ static void check_cavity(int (*solid)(int, int, int), size_t rims, double volume
   assert_int_equal(vsc_cavity_make(&wall, mesh->node_count, &cavity, NULL), VSC_OK);
   assert_int_equal(cavity.rim_count, rims);
   assert_close(vsc_cavity_volume(&cavity, mesh->nodes, 3), volume, 1e-13, 0);
-  double caps = 0;
-  for (size_t rim = 0; rim < rims; rim++) caps += vsc_cavity_cap_area(&cavity, rim, mesh->nodes, 3);
-  assert_close(caps, cap_area, 1e-13, 1e-13);
   vsc_cavity_free(&cavity);
   vsc_surface_free(&wall);
   vsc_mesh_free(mesh);
@@ -73,16 +70,16 @@ static void check_cavity(int (*solid)(int, int, int), size_t rims, double volume
 static void cavities_of_known_volume(void **state)
 {
   (void)state;
-  check_cavity(hollow, 0, 27, 0);
-  check_cavity(cup, 1, 36, 9);
-  check_cavity(tube, 2, 45, 18);
+  check_cavity(hollow, 0, 27);
+  check_cavity(cup, 1, 36);
+  check_cavity(tube, 2, 45);
 }
 
 // The two shafts share an edge of four triangles; at each end their rims touch in one node.
 static void touching_rims_are_taken_apart(void **state)
 {
   (void)state;
-  check_cavity(two_wells, 4, 10, 4);
+  check_cavity(two_wells, 4, 10);
 }
 
 static void the_whole_boundary_encloses_minus_the_tissue(void **state)

@@ -6,13 +6,6 @@
 #include "mech/state.h"
 #include "model/law_springs.h"
 
-// The model's number of a patch's node.
-static inline uint32_t vsc_node_of(const vsc_model *model, const vsc_patch *patch, uint16_t local)
-{
-  return local < patch->own_count ? patch->first_node + local
-                                  : model->shared[patch->first_shared + local - patch->own_count];
-}
-
 // G = sum_i B_ai x_i of four tets, from node x 4 numbers in the model's order.
 VSC_INLINE void vsc_pack_axes(const vsc_model *model, const vsc_patch *patch, const vsc_pack *pack,
                               const double *nodes, vsc_wide3 g[3])

@@ -71,9 +71,7 @@ static void gather_pressures(const evaluation *e, const vsc_patch *patch, double
   for (size_t n = 0; n < count; n += VSC_WIDTH) {
     vsc_wide J = vsc_splat(1), K = vsc_splat(0);
     for (size_t l = 0; l < VSC_WIDTH && n + l < count; l++) {
-      const uint32_t node = n + l < patch->own_count
-                                ? patch->first_node + (uint32_t)(n + l)
-                                : model->shared[patch->first_shared + (n + l) - patch->own_count];
+      const uint32_t node = vsc_node_of(model, patch, (uint32_t)(n + l));
       J[l] = group_volume(model, e->scratch, node) / model->group_volume[node];
       K[l] = model->group_modulus[node];
     }

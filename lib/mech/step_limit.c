@@ -14,7 +14,8 @@
 #define RISING 1.001
 enum { MOST_ITERATIONS = 40 };
 
-// Numbers in [-1, 1) that are the same everywhere (a 64-bit linear congruential generator, Knuth's MMIX).
+// Numbers in [-1, 1) that are the same everywhere (a 64-bit linear congruential generator, Knuth's
+// MMIX).
 static double next_random(uint64_t *seed)
 {
   *seed = *seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
@@ -26,7 +27,8 @@ static double mass_norm(const vsc_model *model, const double *d)
 {
   double sum = 0;
   for (size_t n = 0; n < model->node_count; n++)
-    sum += model->mass[n] * (d[4 * n] * d[4 * n] + d[4 * n + 1] * d[4 * n + 1] + d[4 * n + 2] * d[4 * n + 2]);
+    sum += model->mass[n] *
+           (d[4 * n] * d[4 * n] + d[4 * n + 1] * d[4 * n + 1] + d[4 * n + 2] * d[4 * n + 2]);
   return sqrt(sum);
 }
 
@@ -56,7 +58,8 @@ static double probe_length(const vsc_model *model)
 }
 
 // mode <- M^-1 (K + 4/dt C) mode by a difference of forces; returns the growth of its norm.
-static double apply_system(const vsc_model *model, vsc_state *state, double time, const double *base)
+static double apply_system(const vsc_model *model, vsc_state *state, double time,
+                           const double *base)
 {
   const size_t count = 4 * model->node_count;
   double *mode = state->limit.mode, *x = state->scratch.trial, *w = x + count;
@@ -98,8 +101,8 @@ void vsc_limit_refresh(const vsc_model *model, vsc_state *state, double time, in
   limit->refreshes++;
 }
 
-// A bound of the springs' tangent at rest: E_a along an axis, 2 G_ab across; a fibre that pulls with
-// a tension T adds T across, T = E_f (1 - r) in an active spring.
+// A bound of the springs' tangent at rest: E_a along an axis, 2 G_ab across; a fibre that pulls
+// with a tension T adds T across, T = E_f (1 - r) in an active spring.
 static double stiffest_springs(const vsc_material *material)
 {
   double along = 0, across = 0, tension = 0;
@@ -130,7 +133,8 @@ static double gradient_square(const vsc_pack *pack, int c, int l)
 {
   double square = 0;
   for (int a = 0; a < 3; a++) {
-    const double B = c > 0 ? pack->B[a][c - 1][l] : -(pack->B[a][0][l] + pack->B[a][1][l] + pack->B[a][2][l]);
+    const double B =
+        c > 0 ? pack->B[a][c - 1][l] : -(pack->B[a][0][l] + pack->B[a][1][l] + pack->B[a][2][l]);
     square += B * B;
   }
   return square;
@@ -164,7 +168,8 @@ double vsc_limit_bound(const vsc_model *model, vsc_scratch *scratch, size_t *slo
       if (model->mesh_tet[k] == VSC_NO_TET) continue;
       double sum = 0;
       for (int c = 0; c < 4; c++) {
-        const uint32_t node = vsc_node_of(model, patch, model->packs[k / VSC_WIDTH].node[c][k % VSC_WIDTH]);
+        const uint32_t node =
+            vsc_node_of(model, patch, model->packs[k / VSC_WIDTH].node[c][k % VSC_WIDTH]);
         sum += stiffness[node] / model->mass[node];
       }
       if (sum > most) *slot = k;

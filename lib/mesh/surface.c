@@ -251,17 +251,6 @@ static double triangle_area(const double a[3], const double b[3], const double c
   return vsc_norm(normal) / 2;
 }
 
-double vsc_cavity_cap_area(const vsc_cavity *cavity, size_t rim, const double *positions,
-                           size_t stride)
-{
-  double centre[3], area = 0;
-  rim_centre(cavity, rim, positions, stride, centre);
-  for (size_t k = cavity->rim_start[rim]; k < cavity->rim_start[rim + 1]; k++)
-    area += triangle_area(positions + stride * cavity->rim_nodes[k],
-                          following(cavity, rim, k, positions, stride), centre);
-  return area;
-}
-
 double vsc_surface_area(const vsc_surface *surface, const double *positions, size_t stride)
 {
   double area = 0;

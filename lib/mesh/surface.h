@@ -41,10 +41,6 @@ void vsc_cavity_free(vsc_cavity *cavity);
 // positions[stride i .. stride i + 2].
 double vsc_cavity_volume(const vsc_cavity *cavity, const double *positions, size_t stride);
 
-// The area of the cavity's cap over rim `rim`, mm^2.
-double vsc_cavity_cap_area(const vsc_cavity *cavity, size_t rim, const double *positions,
-                           size_t stride);
-
 // The area of a surface, mm^2; positions as above.
 double vsc_surface_area(const vsc_surface *surface, const double *positions, size_t stride);
 

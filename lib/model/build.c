@@ -9,20 +9,6 @@
 #include "model/patches.h"
 #include "model/terms.h"
 
-static const vsc_array *find_tet_array(const vsc_mesh *mesh, const char *name, const char *key,
-                                       vsc_error *error)
-{
-  const vsc_array *array = vsc_arrays_find(&mesh->tet_data, name);
-  if (array == NULL || array->components != 1) {
-    char hint[256];
-    vsc_arrays_hint(&mesh->tet_data, name, hint, sizeof hint);
-    vsc_fail(error, VSC_INPUT, "%s: the mesh has no cell array '%s' with one number per element%s",
-             key, name, hint);
-    return NULL;
-  }
-  return array;
-}
-
 // The material whose list of regions holds `region`; else the one without a list; else -1.
 static int material_of_region(const vsc_definition *definition, double region)
 {
@@ -39,13 +25,12 @@ static int material_of_region(const vsc_definition *definition, double region)
 static vsc_status assign_materials(const vsc_mesh *mesh, const vsc_definition *definition,
                                    uint32_t *material_of, vsc_error *error)
 {
-  const vsc_array *regions = NULL;
-  if (definition->region_array[0] != '\0') {
-    regions = find_tet_array(mesh, definition->region_array, "mesh.region_array", error);
-    if (regions == NULL) return VSC_INPUT;
-  }
+  const double *regions;
+  const vsc_status status =
+      vsc_terms_tet_values(mesh, definition->region_array, "mesh.region_array", &regions, error);
+  if (status != VSC_OK) return status;
   for (size_t t = 0; t < mesh->tet_count; t++) {
-    const double region = regions ? regions->values[t] : 0;
+    const double region = regions ? regions[t] : 0;
     const int material = material_of_region(definition, region);
     if (material < 0)
       return vsc_fail(
@@ -103,7 +88,7 @@ static vsc_status build_materials(const vsc_definition *definition, vsc_model *m
   return VSC_OK;
 }
 
-// The patch of each pack, to find a slot's material.
+// Elements and volume of each material.
 static void count_materials(vsc_model *model)
 {
   for (size_t p = 0; p < model->patch_count; p++) {
@@ -191,6 +176,10 @@ vsc_status vsc_model_build(const vsc_mesh *mesh, const vsc_axes *axes,
     return vsc_fail(error, VSC_INPUT,
                     "fibers: axes of %zu elements for a mesh of %zu; give one frame per element",
                     axes->count, mesh->tet_count);
+  if (axes != NULL && !vsc_axes_valid(axes))
+    return vsc_fail(error, VSC_INPUT,
+                    "fibers: a frame is not orthonormal and right-handed; make frames with "
+                    "vsc_axes_complete");
   vsc_model *built;
   uint32_t *material_of;
   if (!VSC_NEW(built, 1)) return vsc_fail_memory(error, "the model");

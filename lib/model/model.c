@@ -55,6 +55,14 @@ void vsc_model_free(vsc_model *model)
   vsc_free(model);
 }
 
+uint32_t *vsc_model_node_numbers(const vsc_model *model)
+{
+  uint32_t *number;
+  if (!VSC_NEW(number, model->node_count)) return NULL;
+  for (size_t n = 0; n < model->node_count; n++) number[model->mesh_node[n]] = (uint32_t)n;
+  return number;
+}
+
 int vsc_model_find_surface(const vsc_model *model, const char *name)
 {
   for (size_t s = 0; s < model->surface_count; s++)

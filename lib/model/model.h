@@ -43,9 +43,9 @@ typedef struct vsc_patch {
   uint32_t material;
   uint32_t first_pack, pack_count;
   uint32_t first_node, own_count;  // own nodes: first_node ... first_node + own_count - 1
-  uint32_t first_shared,
-      shared_count;  // shared nodes: shared[first_shared ...]; the patch's part of
-                     // their sums lies at the same places of the partial arrays
+  // shared nodes: shared[first_shared ...]; the patch's part of their sums lies at the same places
+  // of the partial arrays
+  uint32_t first_shared, shared_count;
 } vsc_patch;
 
 // A surface under pressure.
@@ -78,8 +78,7 @@ typedef struct vsc_model {
   vsc_patch *patches;     // patch_count
   uint32_t *shared;       // nodes of the patches' shared parts, partial_count in all
   size_t own_node_count;  // nodes [0, own_node_count) belong to one patch each
-  uint32_t *
-      sum_start;  // node_count - own_node_count + 1: where a shared node's list starts in sum_place
+  uint32_t *sum_start;    // shared nodes + 1: where a shared node's list starts in sum_place
   uint32_t *sum_place;  // partial_count: places in the partial arrays, in the order of the patches
   size_t partial_count;
   size_t most_nodes;  // of any patch
@@ -95,8 +94,7 @@ typedef struct vsc_model {
   double *weight;        // node_count x 4: mass . gravity, mN; NULL without gravity
 
   // volume groups of the nodes, when terms.nodal_volume
-  double
-      *group_volume;  // node_count: a quarter of the rest volume of the tets round the node, mm^3
+  double *group_volume;   // node_count: a quarter of the tets' rest volume round the node, mm^3
   double *group_modulus;  // node_count: their volume-weighted K, kPa
 
   vsc_terms terms;
@@ -121,11 +119,23 @@ typedef struct vsc_model {
 // Builds the model of `definition` on `mesh` with the elements' `axes` (NULL: none are known, all
 // elements are passive with global axes). Nothing is kept of the arguments. VSC_INPUT for what
 // does not fit together: a region without material, a missing array, an empty set, a surface
-// that is not there, an active material without fibres. The caller owns *model.
+// that is not there, an active material without fibres, axes that are not
+// orthonormal. The caller owns *model.
 vsc_status vsc_model_build(const vsc_mesh *mesh, const vsc_axes *axes,
                            const vsc_definition *definition, vsc_model **model, vsc_error *error);
 
 void vsc_model_free(vsc_model *model);  // NULL is fine
+
+// The model's number of node `local` of a patch.
+static inline uint32_t vsc_node_of(const vsc_model *model, const vsc_patch *patch, uint32_t local)
+{
+  return local < patch->own_count ? patch->first_node + local
+                                  : model->shared[patch->first_shared + local - patch->own_count];
+}
+
+// The model's number of each node of the mesh (node_count), owned by the caller; NULL when memory
+// is short.
+uint32_t *vsc_model_node_numbers(const vsc_model *model);
 
 // The number of the named surface, or -1.
 int vsc_model_find_surface(const vsc_model *model, const char *name);

@@ -33,18 +33,6 @@ vsc_status vsc_terms_selections(const vsc_mesh *mesh, const vsc_definition *defi
   return status;
 }
 
-// The model's number of each node of the mesh.
-static uint32_t *model_numbers(const vsc_model *model, vsc_error *error)
-{
-  uint32_t *number;
-  if (!VSC_NEW(number, model->node_count)) {
-    vsc_fail_memory(error, "node numbers");
-    return NULL;
-  }
-  for (size_t n = 0; n < model->node_count; n++) number[model->mesh_node[n]] = (uint32_t)n;
-  return number;
-}
-
 static const vsc_node_set *find_set(const vsc_model *model, const char *name)
 {
   for (size_t s = 0; s < model->set_count; s++)
@@ -71,8 +59,8 @@ static void count_held(vsc_model *model)
 vsc_status vsc_terms_supports(const vsc_definition *definition, vsc_model *model, vsc_error *error)
 {
   if (definition->support_count == 0) return VSC_OK;
-  uint32_t *number = model_numbers(model, error);
-  if (number == NULL) return VSC_SYSTEM;
+  uint32_t *number = vsc_model_node_numbers(model);
+  if (number == NULL) return vsc_fail_memory(error, "node numbers");
   vsc_status status = VSC_OK;
   for (size_t s = 0; s < definition->support_count && status == VSC_OK; s++) {
     const vsc_support_def *support = &definition->supports[s];
@@ -129,8 +117,8 @@ vsc_status vsc_terms_loads(const vsc_definition *definition, vsc_model *model, v
   model->pressure_count = definition->pressure_count;
   if (!VSC_NEW(model->pressures, model->pressure_count))
     return vsc_fail_memory(error, "pressure loads");
-  uint32_t *number = model_numbers(model, error);
-  if (number == NULL) return VSC_SYSTEM;
+  uint32_t *number = vsc_model_node_numbers(model);
+  if (number == NULL) return vsc_fail_memory(error, "node numbers");
   for (size_t p = 0; p < definition->pressure_count && status == VSC_OK; p++)
     status = add_pressure(definition, p, number, model, error);
   vsc_free(number);

@@ -2,21 +2,13 @@
 #include "model/terms.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/mem.h"
 
-// The node of corner `corner` of tet `lane` of a pack.
-static uint32_t global_node(const vsc_model *model, const vsc_patch *patch, const vsc_pack *pack,
-                            int corner, int lane)
-{
-  const uint32_t local = pack->node[corner][lane];
-  return local < patch->own_count ? patch->first_node + local
-                                  : model->shared[patch->first_shared + local - patch->own_count];
-}
-
-static vsc_status tet_values(const vsc_mesh *mesh, const char *name, size_t material,
-                             const char *key, const double **values, vsc_error *error)
+vsc_status vsc_terms_tet_values(const vsc_mesh *mesh, const char *name, const char *key,
+                                const double **values, vsc_error *error)
 {
   *values = NULL;
   if (name[0] == '\0') return VSC_OK;
@@ -27,10 +19,9 @@ static vsc_status tet_values(const vsc_mesh *mesh, const char *name, size_t mate
   }
   char hint[256];
   vsc_arrays_hint(&mesh->tet_data, name, hint, sizeof hint);
-  return vsc_fail(
-      error, VSC_INPUT,
-      "materials[%zu].active.%s: the mesh has no cell array '%s' with one number per element%s",
-      material, key, name, hint);
+  return vsc_fail(error, VSC_INPUT,
+                  "%s: the mesh has no cell array '%s' with one number per element%s", key, name,
+                  hint);
 }
 
 static vsc_status fill_activation(const vsc_mesh *mesh, const vsc_definition *definition, size_t m,
@@ -38,10 +29,12 @@ static vsc_status fill_activation(const vsc_mesh *mesh, const vsc_definition *de
 {
   const vsc_active_def *active = &definition->materials[m].active;
   const double *amplitudes, *delays;
-  vsc_status status =
-      tet_values(mesh, active->amplitude_array, m, "amplitude_array", &amplitudes, error);
+  char key[VSC_NAME];
+  snprintf(key, sizeof key, "materials[%zu].active.amplitude_array", m);
+  vsc_status status = vsc_terms_tet_values(mesh, active->amplitude_array, key, &amplitudes, error);
+  snprintf(key, sizeof key, "materials[%zu].active.delay_array", m);
   if (status == VSC_OK)
-    status = tet_values(mesh, active->delay_array, m, "delay_array", &delays, error);
+    status = vsc_terms_tet_values(mesh, active->delay_array, key, &delays, error);
   if (status != VSC_OK) return status;
   for (size_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];
@@ -101,7 +94,7 @@ vsc_status vsc_terms_masses(const vsc_mesh *mesh, vsc_model *model, vsc_error *e
     for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++)
       for (int c = 0; c < 4; c++)
         for (int l = 0; l < VSC_WIDTH; l++)
-          model->mass[global_node(model, patch, &model->packs[k], c, l)] +=
+          model->mass[vsc_node_of(model, patch, model->packs[k].node[c][l])] +=
               density * model->packs[k].V[l] / 4;
   }
   for (size_t n = 0; n < nodes; n++) {
@@ -123,7 +116,7 @@ vsc_status vsc_terms_volume_groups(vsc_model *model, vsc_error *error)
     for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++)
       for (int c = 0; c < 4; c++)
         for (int l = 0; l < VSC_WIDTH; l++) {
-          const uint32_t node = global_node(model, patch, &model->packs[k], c, l);
+          const uint32_t node = vsc_node_of(model, patch, model->packs[k].node[c][l]);
           model->group_volume[node] += model->packs[k].V[l] / 4;
           model->group_modulus[node] += modulus * model->packs[k].V[l] / 4;
         }

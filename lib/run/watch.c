@@ -9,14 +9,14 @@
 
 #include "base/mem.h"
 
-#define MJ 1e-3  // mJ per uJ
-#define ML 1e-3  // ml per mm^3
+enum { OTHER_SIGNALS = 28 };  // columns of signals.csv besides cavities and pressures
+#define MJ 1e-3               // mJ per uJ
+#define ML 1e-3               // ml per mm^3
 
-// Writes one column of the row being made; at the first row also its name.
+// One column of the row being made, with its name.
 static void put(vsc_watch *watch, const char *unit, double value, const char *name,
                 const char *suffix)
 {
-  if (watch->signal_count == VSC_SIGNALS) return;
   const size_t k = watch->signal_count++;
   snprintf(watch->names[k], VSC_SIGNAL_NAME, "%s%s [%s]", name, suffix, unit);
   watch->values[k] = value;
@@ -74,10 +74,11 @@ static vsc_status make_cavities(const vsc_problem *problem, vsc_watch *watch, vs
 {
   const vsc_model *model = problem->model;
   const vsc_output_def *output = &problem->scene->output;
-  uint32_t *number;
-  if (!VSC_NEW(watch->cavities, output->cavity_count) || !VSC_NEW(number, model->node_count))
+  uint32_t *number = vsc_model_node_numbers(model);
+  if (number == NULL || !VSC_NEW(watch->cavities, output->cavity_count)) {
+    vsc_free(number);
     return vsc_fail_memory(error, "cavities");
-  for (size_t n = 0; n < model->node_count; n++) number[model->mesh_node[n]] = (uint32_t)n;
+  }
   vsc_status status = VSC_OK;
   for (size_t c = 0; c < output->cavity_count && status == VSC_OK; c++) {
     const int s = vsc_model_find_surface(model, output->cavities[c]);
@@ -148,6 +149,11 @@ vsc_status vsc_watch_open(const vsc_problem *problem, const char *file, double k
 {
   vsc_watch *made;
   *watch = NULL;
+  const size_t cavities = problem->scene->output.cavity_count;
+  if (OTHER_SIGNALS + cavities + problem->model->pressure_count > VSC_SIGNALS)
+    return vsc_fail(error, VSC_INPUT,
+                    "pressures: %zu of them and %zu cavities are too many signals; %d have room",
+                    problem->model->pressure_count, cavities, VSC_SIGNALS - OTHER_SIGNALS);
   if (!VSC_NEW(made, 1)) return vsc_fail_memory(error, "signals");
   made->energy_scale = least_energy(problem->model);
   vsc_status status = vsc_ledger_create(problem->model, &made->ledger, error);
@@ -227,13 +233,4 @@ void vsc_watch_free(vsc_watch *watch)
   vsc_free(watch->cavities);
   vsc_ledger_free(watch->ledger);
   vsc_free(watch);
-}
-
-int vsc_watch_find(const vsc_watch *watch, const char *name)
-{
-  const size_t length = strlen(name);
-  for (size_t k = 0; k < watch->signal_count; k++)
-    if (strncmp(watch->names[k], name, length) == 0 && watch->names[k][length] == ' ')
-      return (int)k;
-  return -1;
 }

@@ -45,7 +45,4 @@ void vsc_watch_resume(const vsc_problem *problem, vsc_state *state, vsc_watch *w
 
 void vsc_watch_free(vsc_watch *watch);  // NULL is fine
 
-// The column called "name [unit]" by its name, or -1.
-int vsc_watch_find(const vsc_watch *watch, const char *name);
-
 #endif
