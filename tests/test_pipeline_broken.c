@@ -2,6 +2,7 @@
 // Broken input through the whole program: one clear line on stderr, the right exit code, nothing
 // written.
 #include "block_scene.h"
+#include "io/scene.h"
 #include "mesh/image.h"
 
 // A broken scene: the options that break it, what the line must hold.
@@ -74,8 +75,19 @@ static void test_settings(void **state)
       {"--set nonsense", "nonsense"},
       {"--set =", "--set"},
       {"--set 'time.end='", "time.end"},
+      {"--set 'time.step=1 s'", "block.yaml: time.step: "},  // above the stable step
   };
   ALL_REFUSED("block.yaml", cases);
+}
+
+// Every pressure has a column of signals.csv, and those are counted.
+static void test_too_many_pressures(void **state)
+{
+  (void)state;
+  char command[4096] = "$V check block.yaml --set 'pressures=[";
+  for (int k = 0; k < VSC_MOST_PRESSURES + 1; k++) strcat(command, "{surface: end, peak: 0 kPa},");
+  strcat(command, "]'");
+  assert_one_line("53 pressures", shell(command), 2, "pressures: 53 of them");
 }
 
 static void test_options(void **state)
@@ -313,7 +325,7 @@ int main(void)
       cmocka_unit_test(test_mesh_files),  cmocka_unit_test(test_bad_numbers),
       cmocka_unit_test(test_bad_cells),   cmocka_unit_test(test_maps),
       cmocka_unit_test(test_curve_files), cmocka_unit_test(test_unwritable_output),
-      cmocka_unit_test(test_full_disk),
+      cmocka_unit_test(test_full_disk),   cmocka_unit_test(test_too_many_pressures),
   };
   return cmocka_run_group_tests(tests, block_open, program_close);
 }

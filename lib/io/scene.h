@@ -10,7 +10,7 @@
 #include "model/definition.h"
 #include "model/fiber_def.h"
 
-enum { VSC_OUTPUT_ARRAYS = 16 };
+enum { VSC_OUTPUT_ARRAYS = 16, VSC_MOST_PRESSURES = 52 };  // of a scene
 
 // What is written, and how often.
 typedef struct vsc_output_def {

@@ -118,6 +118,14 @@ static vsc_status check_output(vsc_reading *reading, const vsc_scene *scene)
   return status;
 }
 
+static vsc_status check_pressures(vsc_reading *reading, const vsc_scene *scene)
+{
+  if (scene->definition.pressure_count <= VSC_MOST_PRESSURES) return VSC_OK;
+  vsc_enter(reading, "pressures");
+  return vsc_reading_fail(reading, "%zu of them; expected at most %d",
+                          scene->definition.pressure_count, VSC_MOST_PRESSURES);
+}
+
 vsc_status vsc_scene_check(vsc_reading *reading, const vsc_scene *scene)
 {
   vsc_error found;
@@ -127,6 +135,7 @@ vsc_status vsc_scene_check(vsc_reading *reading, const vsc_scene *scene)
   vsc_leave(reading, 0);
   status = vsc_definition_check(&scene->definition, &found);
   if (status != VSC_OK) return vsc_reading_locate(reading, &found);
-  status = check_fibers(reading, scene);
+  status = check_pressures(reading, scene);
+  if (status == VSC_OK) status = check_fibers(reading, scene);
   return status == VSC_OK ? check_output(reading, scene) : status;
 }

@@ -9,9 +9,8 @@
 
 #include "base/mem.h"
 
-enum { OTHER_SIGNALS = 28 };  // columns of signals.csv besides cavities and pressures
-#define MJ 1e-3               // mJ per uJ
-#define ML 1e-3               // ml per mm^3
+#define MJ 1e-3  // mJ per uJ
+#define ML 1e-3  // ml per mm^3
 
 // One column of the row being made, with its name.
 static void put(vsc_watch *watch, const char *unit, double value, const char *name,
@@ -149,11 +148,6 @@ vsc_status vsc_watch_open(const vsc_problem *problem, const char *file, double k
 {
   vsc_watch *made;
   *watch = NULL;
-  const size_t cavities = problem->scene->output.cavity_count;
-  if (OTHER_SIGNALS + cavities + problem->model->pressure_count > VSC_SIGNALS)
-    return vsc_fail(error, VSC_INPUT,
-                    "pressures: %zu of them and %zu cavities are too many signals; %d have room",
-                    problem->model->pressure_count, cavities, VSC_SIGNALS - OTHER_SIGNALS);
   if (!VSC_NEW(made, 1)) return vsc_fail_memory(error, "signals");
   made->energy_scale = least_energy(problem->model);
   vsc_status status = vsc_ledger_create(problem->model, &made->ledger, error);
