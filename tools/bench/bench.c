@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/mem.h"
 #include "base/parallel.h"
 #include "mech/kernel.h"
 #include "run/problem.h"
@@ -51,17 +52,43 @@ static vsc_material_def tissue(const bench_case *bench)
   return material;
 }
 
-// Exchanges tets and renumbers nodes at random; the same at each call.
-static void shuffle(vsc_mesh *mesh)
+static size_t random_below(size_t count)
 {
-  srand(1);
-  for (size_t t = mesh->tet_count - 1; t > 0; t--) {
-    const size_t other = (size_t)(((double)rand() / ((double)RAND_MAX + 1)) * (double)(t + 1));
-    uint32_t kept[4];
-    memcpy(kept, mesh->tets + 4 * t, sizeof kept);
-    memcpy(mesh->tets + 4 * t, mesh->tets + 4 * other, sizeof kept);
-    memcpy(mesh->tets + 4 * other, kept, sizeof kept);
+  return (size_t)(((double)rand() / ((double)RAND_MAX + 1)) * (double)count);
+}
+
+static void exchange(void *a, void *b, size_t bytes)
+{
+  char kept[64];
+  memcpy(kept, a, bytes);
+  memcpy(a, b, bytes);
+  memcpy(b, kept, bytes);
+}
+
+// Puts tets and nodes into random order, the same at each call.
+static vsc_status shuffle(vsc_mesh *mesh, vsc_error *error)
+{
+  uint32_t *number, *former;
+  const size_t nodes = mesh->node_count;
+  if (!VSC_NEW(former, nodes)) return vsc_fail_memory(error, "shuffling");
+  if (!VSC_NEW(number, nodes)) {
+    vsc_free(former);
+    return vsc_fail_memory(error, "shuffling");
   }
+  srand(1);
+  for (size_t n = 0; n < nodes; n++) former[n] = (uint32_t)n;
+  for (size_t n = nodes - 1; n > 0; n--) {
+    const size_t other = random_below(n + 1);
+    exchange(former + n, former + other, sizeof *former);
+    exchange(mesh->nodes + 3 * n, mesh->nodes + 3 * other, 3 * sizeof(double));
+  }
+  for (size_t n = 0; n < nodes; n++) number[former[n]] = (uint32_t)n;
+  for (size_t i = 0; i < 4 * mesh->tet_count; i++) mesh->tets[i] = number[mesh->tets[i]];
+  for (size_t t = mesh->tet_count - 1; t > 0; t--)
+    exchange(mesh->tets + 4 * t, mesh->tets + 4 * random_below(t + 1), 4 * sizeof(uint32_t));
+  vsc_free(former);
+  vsc_free(number);
+  return VSC_OK;
 }
 
 // Seconds of one step: the least of some timings.
@@ -105,7 +132,7 @@ static vsc_status bench_block(size_t wanted, bool shuffled, vsc_error *error)
   vsc_mesh *mesh;
   vsc_status status = vsc_block_mesh(&shape, &mesh, error);
   if (status != VSC_OK) return status;
-  if (shuffled) shuffle(mesh);
+  if (shuffled) status = shuffle(mesh, error);
   vsc_parallel_set_threads(0);
   const int all = vsc_parallel_threads();
   for (int k = 0; k < CASES && status == VSC_OK; k++) {
