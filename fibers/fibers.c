@@ -29,13 +29,13 @@ static vsc_status find_vectors(const vsc_mesh *mesh, const char *name, const cha
                                const double **vectors, vsc_error *error)
 {
   char hint[256];
-  const vsc_array *array = vsc_arrays_find(&mesh->tet_data, name);
+  const vsc_array *array = vsc_arrays_find(&mesh->element_data, name);
   if (array == NULL) {
-    vsc_arrays_hint(&mesh->tet_data, name, hint, sizeof hint);
+    vsc_arrays_hint(&mesh->element_data, name, hint, sizeof hint);
     return vsc_fail(error, VSC_INPUT, "the mesh has no array '%s' on its cells for the %s%s", name,
                     what, hint);
   }
-  if (array->components != 3 || array->tuples != mesh->tet_count)
+  if (array->components != 3 || array->tuples != mesh->element_count)
     return vsc_fail(error, VSC_INPUT,
                     "cell array '%s' for the %s has %d components, expected a vector of 3", name,
                     what, array->components);
@@ -87,10 +87,10 @@ static vsc_status from_arrays(const vsc_mesh *mesh, const vsc_fiber_def *definit
   vsc_status status = find_vectors(mesh, definition->fiber_array, "fibre", &fibers, error);
   if (status != VSC_OK) return status;
   const bool optional =
-      strcmp(name, "sheet") == 0 && vsc_arrays_find(&mesh->tet_data, name) == NULL;
+      strcmp(name, "sheet") == 0 && vsc_arrays_find(&mesh->element_data, name) == NULL;
   if (name[0] != '\0' && !optional) status = find_vectors(mesh, name, "sheet", &sheets, error);
   if (status != VSC_OK) return status;
-  for (size_t e = 0; e < mesh->tet_count; e++) {
+  for (size_t e = 0; e < mesh->element_count; e++) {
     const double *sheet = sheets == NULL ? NULL : &sheets[3 * e];
     axes->known[e] = vsc_axes_complete(&fibers[3 * e], sheet, &axes->frames[9 * e]) != 0;
     if (!axes->known[e])
@@ -149,7 +149,7 @@ vsc_status vsc_fibers_make(const vsc_mesh *mesh, const vsc_fiber_def *definition
                            vsc_fiber_report *report, vsc_error *error)
 {
   *report = (vsc_fiber_report){0};
-  vsc_axes *axes = vsc_axes_create(mesh->tet_count);
+  vsc_axes *axes = vsc_axes_create(mesh->element_count);
   if (axes == NULL) return vsc_fail_memory(error, "the fibre axes");
   vsc_status status = from_source(mesh, definition, surfaces, surface_count, axes, report, error);
   const bool fills = definition->source == VSC_FIBER_MAP || definition->source == VSC_FIBER_ARRAYS;

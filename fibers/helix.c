@@ -36,7 +36,7 @@ int vsc_helix_frame(const double transmural[3], const double long_axis[3], doubl
 // The gradients of the four linear shape functions of a tet, 1/mm; returns its volume, mm^3.
 static double shape_gradients(const vsc_mesh *mesh, size_t tet, double gradient[4][3])
 {
-  const uint32_t *node = &mesh->tets[4 * tet];
+  const uint32_t *node = &mesh->corners[4 * tet];
   double edge[3][3];
   for (int i = 0; i < 3; i++)
     vsc_subtract(&mesh->nodes[3 * (size_t)node[i + 1]], &mesh->nodes[3 * (size_t)node[0]], edge[i]);
@@ -56,7 +56,7 @@ static void gradient_of(const vsc_mesh *mesh, size_t tet, const double *depth, d
   *volume = shape_gradients(mesh, tet, shape);
   for (int a = 0; a < 3; a++) {
     gradient[a] = 0;
-    for (int i = 0; i < 4; i++) gradient[a] += shape[i][a] * depth[mesh->tets[4 * tet + (size_t)i]];
+    for (int i = 0; i < 4; i++) gradient[a] += shape[i][a] * depth[mesh->corners[4 * tet + (size_t)i]];
   }
 }
 
@@ -106,10 +106,10 @@ static vsc_status check_parts(const laplace *problem, vsc_error *error)
   uint32_t *parent;
   if (!VSC_NEW(parent, mesh->node_count)) return vsc_fail_memory(error, "the parts of the mesh");
   for (size_t i = 0; i < mesh->node_count; i++) parent[i] = (uint32_t)i;
-  for (size_t e = 0; e < mesh->tet_count; e++)
+  for (size_t e = 0; e < mesh->element_count; e++)
     for (int i = 1; i < 4; i++) {
-      const uint32_t a = root_of(parent, mesh->tets[4 * e]);
-      const uint32_t b = root_of(parent, mesh->tets[4 * e + (size_t)i]);
+      const uint32_t a = root_of(parent, mesh->corners[4 * e]);
+      const uint32_t b = root_of(parent, mesh->corners[4 * e + (size_t)i]);
       parent[a < b ? b : a] = a < b ? a : b;
     }
   uint8_t *held;
@@ -156,11 +156,11 @@ static void add_tet(const laplace *problem, size_t tet, cholmod_triplet *triplet
   const vsc_mesh *mesh = problem->mesh;
   const double volume = shape_gradients(mesh, tet, gradient);
   for (int i = 0; i < 4; i++) {
-    const uint32_t row_node = mesh->tets[4 * tet + (size_t)i];
+    const uint32_t row_node = mesh->corners[4 * tet + (size_t)i];
     const int32_t row = problem->number[row_node];
     if (row < 0) continue;
     for (int j = 0; j < 4; j++) {
-      const uint32_t column_node = mesh->tets[4 * tet + (size_t)j];
+      const uint32_t column_node = mesh->corners[4 * tet + (size_t)j];
       const int32_t column = problem->number[column_node];
       const double value = volume * vsc_dot(gradient[i], gradient[j]);
       if (column < 0) ((double *)problem->right->x)[row] -= value * problem->depth[column_node];
@@ -178,9 +178,9 @@ static bool assemble(laplace *problem)
   cholmod_common *common = &problem->common;
   problem->right = cholmod_zeros(n, 1, CHOLMOD_REAL, common);
   cholmod_triplet *triplet =
-      cholmod_allocate_triplet(n, n, 10 * problem->mesh->tet_count, -1, CHOLMOD_REAL, common);
+      cholmod_allocate_triplet(n, n, 10 * problem->mesh->element_count, -1, CHOLMOD_REAL, common);
   if (problem->right != NULL && triplet != NULL) {
-    for (size_t e = 0; e < problem->mesh->tet_count; e++) add_tet(problem, e, triplet);
+    for (size_t e = 0; e < problem->mesh->element_count; e++) add_tet(problem, e, triplet);
     problem->matrix = cholmod_triplet_to_sparse(triplet, 0, common);
   }
   cholmod_free_triplet(&triplet, common);
@@ -236,12 +236,12 @@ vsc_status vsc_helix_depth(const vsc_mesh *mesh, const vsc_surface *endo, const 
 // The volume-weighted mean gradient at every node, times the volume round it.
 static void nodal_gradients(const vsc_mesh *mesh, const double *depth, double *nodal)
 {
-  for (size_t e = 0; e < mesh->tet_count; e++) {
+  for (size_t e = 0; e < mesh->element_count; e++) {
     double gradient[3], volume;
     gradient_of(mesh, e, depth, gradient, &volume);
     for (int i = 0; i < 4; i++)
       for (int a = 0; a < 3; a++)
-        nodal[3 * (size_t)mesh->tets[4 * e + (size_t)i] + (size_t)a] += volume * gradient[a];
+        nodal[3 * (size_t)mesh->corners[4 * e + (size_t)i] + (size_t)a] += volume * gradient[a];
   }
 }
 
@@ -255,17 +255,17 @@ static void transmural_axis(const vsc_mesh *mesh, size_t tet, const double *dept
   for (int a = 0; a < 3; a++) {
     e_t[a] = 0;
     for (int i = 0; i < 4; i++)
-      e_t[a] += nodal[3 * (size_t)mesh->tets[4 * tet + (size_t)i] + (size_t)a];
+      e_t[a] += nodal[3 * (size_t)mesh->corners[4 * tet + (size_t)i] + (size_t)a];
   }
 }
 
 static void set_axes(const vsc_mesh *mesh, const vsc_fiber_def *definition, const double *depth,
                      const double *nodal, vsc_axes *axes)
 {
-  for (size_t e = 0; e < mesh->tet_count; e++) {
+  for (size_t e = 0; e < mesh->element_count; e++) {
     double e_t[3], t = 0;
     transmural_axis(mesh, e, depth, nodal, e_t);
-    for (int i = 0; i < 4; i++) t += depth[mesh->tets[4 * e + (size_t)i]] / 4;
+    for (int i = 0; i < 4; i++) t += depth[mesh->corners[4 * e + (size_t)i]] / 4;
     const double angle = (1 - t) * definition->endo_angle + t * definition->epi_angle;
     axes->known[e] = vsc_helix_frame(e_t, definition->long_axis, angle, &axes->frames[9 * e]) != 0;
   }

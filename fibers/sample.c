@@ -167,7 +167,7 @@ static index_tet make_tet(const vsc_mesh *mesh, const vsc_image *image, size_t e
   index_tet tet = {0};
   double edge[3][3];
   for (int i = 0; i < 4; i++) {
-    vsc_image_index(image, &mesh->nodes[3 * (size_t)mesh->tets[4 * e + (size_t)i]], tet.node[i]);
+    vsc_image_index(image, &mesh->nodes[3 * (size_t)mesh->corners[4 * e + (size_t)i]], tet.node[i]);
     for (int a = 0; a < 3; a++) tet.centre[a] += tet.node[i][a] / 4;
   }
   for (int i = 0; i < 3; i++) vsc_subtract(tet.node[i + 1], tet.node[0], edge[i]);
@@ -371,10 +371,10 @@ vsc_status vsc_fibers_sample(const vsc_mesh *mesh, const vsc_image *image,
   vsc_status status = open_map(image, def, &map, error);
   if (status != VSC_OK) return status;
   double *coherence;
-  if (!VSC_NEW(coherence, mesh->tet_count)) return vsc_fail_memory(error, "the sampled fibres");
+  if (!VSC_NEW(coherence, mesh->element_count)) return vsc_fail_memory(error, "the sampled fibres");
   *report = (vsc_fiber_report){0};
   size_t found = 0;
-  for (size_t e = 0; e < mesh->tet_count; e++) {
+  for (size_t e = 0; e < mesh->element_count; e++) {
     bool fallback;
     const index_tet tet = make_tet(mesh, image, e);
     axes->known[e] = sample_tet(&map, &tet, &axes->frames[9 * e], &coherence[found], &fallback);

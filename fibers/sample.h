@@ -43,7 +43,7 @@ typedef struct vsc_fiber_report {
 // tet at the surface. A tet without any such voxel stays unknown.
 //
 // Origin, spacing and direction of the image are honoured; a left-handed direction too. Sets
-// `known` of all mesh->tet_count axes, the frames of those found (sheets by rule), and all of
+// `known` of all mesh->element_count axes, the frames of those found (sheets by rule), and all of
 // `report`. VSC_INPUT: an array is missing, has more than one component or not one value per voxel;
 // a flat direction matrix; no voxel with data; voxels with data but non-finite angles or a negative
 // or non-finite weight; an image that lies beside the mesh.

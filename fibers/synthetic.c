@@ -67,9 +67,9 @@ vsc_status vsc_fibers_synthetic(const vsc_mesh *mesh, const vsc_fiber_def *defin
   }
   double low[3], high[3];
   vsc_mesh_box(mesh, low, high);
-  for (size_t e = 0; e < mesh->tet_count; e++) {
+  for (size_t e = 0; e < mesh->element_count; e++) {
     double at[3], f[3] = {0}, hint[3] = {0};
-    vsc_mesh_tet_centre(mesh, e, at);
+    vsc_mesh_element_centre(mesh, e, at);
     switch (definition->source) {
       case VSC_FIBER_CONSTANT: constant(definition, f, hint); break;
       case VSC_FIBER_HORIZONTAL: f[0] = 1; break;

@@ -8,7 +8,7 @@
 #include "mesh/mesh.h"
 #include "model/fiber_def.h"
 
-// Fills all of `axes` (mesh->tet_count) for definition->source:
+// Fills all of `axes` (mesh->element_count) for definition->source:
 //   CONSTANT      f along `direction`, sheet hint `sheet_direction` (zero: by rule)
 //   HORIZONTAL    f = (1, 0, 0), sheet by rule
 //   DIAGONAL      f = (1, 0, 1) / sqrt 2, sheet by rule

@@ -69,7 +69,7 @@ static inline void write_block(const char *file, const uint32_t *node_order,
                                const uint32_t *tet_order)
 {
   vsc_mesh *mesh = block_for_scene();
-  const size_t nodes = mesh->node_count, tets = mesh->tet_count;
+  const size_t nodes = mesh->node_count, tets = mesh->element_count;
   double *x = malloc(3 * nodes * sizeof *x), *fiber = malloc(3 * tets * sizeof *fiber);
   double *face[2] = {malloc(nodes * sizeof(double)), malloc(nodes * sizeof(double))};
   double *region = malloc(tets * sizeof *region);
@@ -83,7 +83,7 @@ static inline void write_block(const char *file, const uint32_t *node_order,
   }
   for (size_t p = 0; p < tets; p++) {
     const size_t t = tet_order ? tet_order[p] : p;
-    for (int c = 0; c < 4; c++) corner[4 * p + c] = place[mesh->tets[4 * t + c]];
+    for (int c = 0; c < 4; c++) corner[4 * p + c] = place[mesh->corners[4 * t + c]];
     if (tet_order != NULL && p % 7 == 0) {
       const uint32_t kept = corner[4 * p];
       corner[4 * p] = corner[4 * p + 1];

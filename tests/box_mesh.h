@@ -34,12 +34,12 @@ static inline vsc_mesh *box_mesh_raw(const int n[3], double h, int (*solid)(int,
         for (int o = 0; o < 6; o++, tets++) {
           int at[3] = {i, j, k};
           for (int c = 0; c < 4; c++) {
-            mesh->tets[4 * tets + c] = box_node(n, at[0], at[1], at[2]);
+            mesh->corners[4 * tets + c] = box_node(n, at[0], at[1], at[2]);
             if (c < 3) at[orders[o][c]]++;
           }
         }
       }
-  mesh->tet_count = tets;
+  mesh->element_count = tets;
   return mesh;
 }
 

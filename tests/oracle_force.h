@@ -27,15 +27,15 @@ static inline double oracle_ramp(double time)
 
 static inline double oracle_activation(const random_body *body, size_t t, double time)
 {
-  const vsc_array *region = vsc_arrays_find(&body->mesh->tet_data, "region");
+  const vsc_array *region = vsc_arrays_find(&body->mesh->element_data, "region");
   if (region->values[t] != 1 || !body->axes->known[t]) return 0;
   const vsc_active_def *active = &body->materials[0].active;
   if (active->kind == VSC_ACTIVE_NONE) return 0;
   double amplitude = 1, delay = active->delay;
   if (active->amplitude_array[0])
-    amplitude = vsc_arrays_find(&body->mesh->tet_data, "strength")->values[t];
+    amplitude = vsc_arrays_find(&body->mesh->element_data, "strength")->values[t];
   if (active->delay_array[0])
-    delay += active->delay_unit * vsc_arrays_find(&body->mesh->tet_data, "late")->values[t];
+    delay += active->delay_unit * vsc_arrays_find(&body->mesh->element_data, "late")->values[t];
   return amplitude * oracle_ramp(time - delay);
 }
 
@@ -61,8 +61,8 @@ static inline oracle_tet oracle_read(const random_body *body, size_t t, const do
                                      const double *w, double time)
 {
   const vsc_mesh *mesh = body->mesh;
-  const vsc_array *region = vsc_arrays_find(&mesh->tet_data, "region");
-  oracle_tet tet = {.node = mesh->tets + 4 * t,
+  const vsc_array *region = vsc_arrays_find(&mesh->element_data, "region");
+  oracle_tet tet = {.node = mesh->corners + 4 * t,
                     .frame = body->axes->frames + 9 * t,
                     .material = &body->materials[region->values[t] == 1 ? 0 : 1],
                     .activation = oracle_activation(body, t, time)};
@@ -145,7 +145,7 @@ static inline double *oracle_node_pressures(const random_body *body, const doubl
 {
   const size_t nodes = body->mesh->node_count;
   double *p = numbers(4 * nodes), *rest = p + nodes, *now = rest + nodes, *modulus = now + nodes;
-  for (size_t t = 0; t < body->mesh->tet_count; t++) {
+  for (size_t t = 0; t < body->mesh->element_count; t++) {
     const oracle_tet tet = oracle_read(body, t, x, NULL, 0);
     for (int c = 0; c < 4; c++) {
       rest[tet.node[c]] += tet.V / 4;
@@ -177,7 +177,7 @@ static inline void oracle_force(const random_body *body, const double *x, const 
   const bool nodal = body->definition.volume == VSC_VOLUME_NODAL;
   double *p = nodal ? oracle_node_pressures(body, x) : NULL;
   memset(force, 0, 3 * body->mesh->node_count * sizeof *force);
-  for (size_t t = 0; t < body->mesh->tet_count; t++) {
+  for (size_t t = 0; t < body->mesh->element_count; t++) {
     const oracle_tet tet = oracle_read(body, t, x, w, time);
     const vsc_material_def *m = tet.material;
     double P[9], pressure = oracle_pressure(nodal ? m->stabilization : m->volume_modulus, tet.J);

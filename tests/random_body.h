@@ -44,16 +44,16 @@ static inline vsc_mesh *random_block(size_t n, uint64_t seed)
   vsc_mesh *mesh = NULL;
   vsc_error error;
   if (vsc_block_mesh(&shape, &mesh, &error) != VSC_OK) fail_msg("%s", error.text);
-  vsc_array *region = (vsc_array *)vsc_arrays_find(&mesh->tet_data, "region");
-  for (size_t t = 0; t < mesh->tet_count; t++) {
+  vsc_array *region = (vsc_array *)vsc_arrays_find(&mesh->element_data, "region");
+  for (size_t t = 0; t < mesh->element_count; t++) {
     double centre[3];
-    vsc_mesh_tet_centre(mesh, t, centre);
+    vsc_mesh_element_centre(mesh, t, centre);
     region->values[t] = centre[0] + 0.3 * centre[1] > 0.65 * size ? 2 : 1;
   }
-  vsc_array *strength = vsc_arrays_add(&mesh->tet_data, "strength", 1, mesh->tet_count);
-  for (size_t t = 0; t < mesh->tet_count; t++) strength->values[t] = random_between(&seed, 0.5, 1);
-  vsc_array *late = vsc_arrays_add(&mesh->tet_data, "late", 1, mesh->tet_count);
-  for (size_t t = 0; t < mesh->tet_count; t++) late->values[t] = random_between(&seed, 0, 20);
+  vsc_array *strength = vsc_arrays_add(&mesh->element_data, "strength", 1, mesh->element_count);
+  for (size_t t = 0; t < mesh->element_count; t++) strength->values[t] = random_between(&seed, 0.5, 1);
+  vsc_array *late = vsc_arrays_add(&mesh->element_data, "late", 1, mesh->element_count);
+  for (size_t t = 0; t < mesh->element_count; t++) late->values[t] = random_between(&seed, 0, 20);
   return mesh;
 }
 
@@ -132,7 +132,7 @@ static inline void random_body_open(random_body *body, size_t n, vsc_active_kind
                                     vsc_volume_kind volume, uint64_t seed)
 {
   vsc_mesh *mesh = random_block(n, seed);
-  body_define(body, mesh, random_axes(mesh->tet_count, seed + 1), active, volume);
+  body_define(body, mesh, random_axes(mesh->element_count, seed + 1), active, volume);
   body_build(body);
 }
 

@@ -76,9 +76,9 @@ static inline void body_hold(small_body *body, const char *array, int x, int y, 
 // Every tet's fibre along `fiber`.
 static inline void body_fibers(small_body *body, const double fiber[3])
 {
-  body->axes = vsc_axes_create(body->mesh->tet_count);
+  body->axes = vsc_axes_create(body->mesh->element_count);
   if (body->axes == NULL) fail_msg("no memory");
-  for (size_t t = 0; t < body->mesh->tet_count; t++) {
+  for (size_t t = 0; t < body->mesh->element_count; t++) {
     vsc_axes_complete(fiber, NULL, body->axes->frames + 9 * t);
     body->axes->known[t] = 1;
   }

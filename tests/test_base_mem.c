@@ -128,7 +128,7 @@ static void test_every_allocation_may_fail(void **state)
   const vsc_block_shape shape = {.cells = {3, 3, 3}, .size = {9, 9, 9}, .tets_per_cell = 5};
   vsc_mesh *mesh;
   assert_int_equal(vsc_block_mesh(&shape, &mesh, NULL), VSC_OK);
-  vsc_axes *axes = vsc_axes_create(mesh->tet_count);
+  vsc_axes *axes = vsc_axes_create(mesh->element_count);
   assert_non_null(axes);
   memset(axes->known, 1, axes->count);
   long failures = 0;

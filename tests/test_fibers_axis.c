@@ -95,12 +95,12 @@ static vsc_mesh *bar(void)
 // Two known ends, z with its sheet along y, and (1, 0, 0.1) seen through both signs.
 static vsc_axes *axes_with_known_ends(const vsc_mesh *mesh)
 {
-  vsc_axes *axes = vsc_axes_create(mesh->tet_count);
-  for (size_t e = 0; e < mesh->tet_count; e++) {
+  vsc_axes *axes = vsc_axes_create(mesh->element_count);
+  for (size_t e = 0; e < mesh->element_count; e++) {
     double centre[3];
     const double sign = e % 2 == 0 ? 1 : -1, low[3] = {0, 0, sign}, high[3] = {sign, 0, 0.1 * sign};
     const double sheet[3] = {0, sign, 0.2};
-    vsc_mesh_tet_centre(mesh, e, centre);
+    vsc_mesh_element_centre(mesh, e, centre);
     if (centre[0] > 1 && centre[0] < 9) continue;
     vsc_axes_complete(centre[0] < 5 ? low : high, sheet, &axes->frames[9 * e]);
     axes->known[e] = 1;
@@ -116,14 +116,14 @@ static void filling_spreads_from_both_ends(void **state)
   size_t filled, filled_again;
   assert_int_equal(vsc_fibers_fill(mesh, axes, &filled, NULL), VSC_OK);
   assert_int_equal(vsc_fibers_fill(mesh, again, &filled_again, NULL), VSC_OK);
-  assert_int_equal(filled, mesh->tet_count * 8 / 10);
-  assert_memory_equal(axes->frames, again->frames, 9 * mesh->tet_count * sizeof(double));
+  assert_int_equal(filled, mesh->element_count * 8 / 10);
+  assert_memory_equal(axes->frames, again->frames, 9 * mesh->element_count * sizeof(double));
   assert_true(vsc_axes_valid(axes));
-  for (size_t e = 0; e < mesh->tet_count; e++) {
+  for (size_t e = 0; e < mesh->element_count; e++) {
     double centre[3];
     const double *f = &axes->frames[9 * e];
     assert_int_equal(axes->known[e], 1);
-    vsc_mesh_tet_centre(mesh, e, centre);
+    vsc_mesh_element_centre(mesh, e, centre);
     if (centre[0] < 4) assert_close(fabs(f[2]), 1, 0, 1e-12);
     if (centre[0] < 4) assert_close(fabs(f[4]), 1, 0, 1e-12);
     if (centre[0] > 6) assert_close(fabs(f[0]), 1 / sqrt(1.01), 0, 1e-12);

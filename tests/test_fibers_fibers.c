@@ -34,8 +34,8 @@ static vsc_axes *make(const vsc_mesh *mesh, const vsc_fiber_def *definition,
   if (status != VSC_OK) print_error("%s\n", error.text);
   assert_int_equal(status, VSC_OK);
   assert_true(vsc_axes_valid(axes));
-  assert_int_equal(report->elements, mesh->tet_count);
-  assert_int_equal(report->with_data + report->filled + report->passive, mesh->tet_count);
+  assert_int_equal(report->elements, mesh->element_count);
+  assert_int_equal(report->with_data + report->filled + report->passive, mesh->element_count);
   return axes;
 }
 
@@ -64,7 +64,7 @@ static void none_is_passive(void **state)
   const vsc_fiber_def definition = from(VSC_FIBER_NONE);
   vsc_fiber_report report;
   vsc_axes *axes = make(mesh, &definition, &report);
-  assert_int_equal(report.passive, mesh->tet_count);
+  assert_int_equal(report.passive, mesh->element_count);
   assert_int_equal(axes->known[3], 0);
   vsc_axes_free(axes);
   vsc_mesh_free(mesh);
@@ -86,12 +86,12 @@ static void one_direction(void **state)
   const double expected[3] = {0, 0.6, 0.8};
   double s[3] = {5, 1 - 0.36, -0.48};
   vsc_normalize(s);
-  for (size_t e = 0; e < mesh->tet_count; e++)
+  for (size_t e = 0; e < mesh->element_count; e++)
     for (int a = 0; a < 3; a++) {
       assert_close(axes->frames[9 * e + (size_t)a], expected[a], 0, 1e-12);
       assert_close(axes->frames[9 * e + 3 + (size_t)a], s[a], 0, 1e-12);
     }
-  assert_int_equal(report.with_data, mesh->tet_count);
+  assert_int_equal(report.with_data, mesh->element_count);
   assert_close(report.azimuth[0], 90, 0, 1e-9);
   assert_close(report.elevation[2], asin(0.8) / degree, 0, 1e-9);
   vsc_axes_free(axes);
@@ -108,11 +108,11 @@ static void figure_six(void **state)
     vsc_fiber_def definition = from((vsc_fiber_source)source);
     definition.pitch = 35 * degree;
     vsc_axes *axes = make(mesh, &definition, &report);
-    assert_int_equal(report.with_data, mesh->tet_count);
-    for (size_t e = 0; e < mesh->tet_count; e++) {
+    assert_int_equal(report.with_data, mesh->element_count);
+    for (size_t e = 0; e < mesh->element_count; e++) {
       double at[3];
       const double *f = &axes->frames[9 * e];
-      vsc_mesh_tet_centre(mesh, e, at);
+      vsc_mesh_element_centre(mesh, e, at);
       const double x = at[0] - 4, y = at[1] - 2, z = at[2], r = hypot(x, y),
                    turn = cos(35 * degree);
       const double expected[4][3] = {{1, 0, 0},
@@ -138,12 +138,12 @@ static void random_fibers_fill_the_sphere(void **state)
   vsc_axes *axes = make(mesh, &definition, &report), *again = make(mesh, &definition, &report);
   definition.seed = 2;
   vsc_axes *other = make(mesh, &definition, &report);
-  const size_t bytes = 9 * mesh->tet_count * sizeof(double);
+  const size_t bytes = 9 * mesh->element_count * sizeof(double);
   assert_memory_equal(axes->frames, again->frames, bytes);
   assert_memory_not_equal(axes->frames, other->frames, bytes);
   double mean[3] = {0}, square[3] = {0}, fourth = 0;
-  const double n = (double)mesh->tet_count;
-  for (size_t e = 0; e < mesh->tet_count; e++) {
+  const double n = (double)mesh->element_count;
+  for (size_t e = 0; e < mesh->element_count; e++) {
     for (int a = 0; a < 3; a++) mean[a] += axes->frames[9 * e + (size_t)a] / n;
     for (int a = 0; a < 3; a++) square[a] += pow(axes->frames[9 * e + (size_t)a], 2) / n;
     fourth += pow(axes->frames[9 * e + 2], 4) / n;
@@ -161,9 +161,9 @@ static void random_fibers_fill_the_sphere(void **state)
 
 static double *add_vectors(vsc_mesh *mesh, const char *name, double x, double y, double z)
 {
-  double *v = vsc_arrays_add(&mesh->tet_data, name, 3, mesh->tet_count)->values;
+  double *v = vsc_arrays_add(&mesh->element_data, name, 3, mesh->element_count)->values;
   const double vector[3] = {x, y, z};
-  for (size_t i = 0; i < 3 * mesh->tet_count; i++) v[i] = vector[i % 3];
+  for (size_t i = 0; i < 3 * mesh->element_count; i++) v[i] = vector[i % 3];
   return v;
 }
 
@@ -228,8 +228,8 @@ static void map_from_a_file(void **state)
   definition.map.length_unit = 10;
   vsc_fiber_report report;
   vsc_axes *axes = make(mesh, &definition, &report);
-  assert_int_equal(report.with_data, mesh->tet_count);
-  for (size_t e = 0; e < mesh->tet_count; e++) {
+  assert_int_equal(report.with_data, mesh->element_count);
+  for (size_t e = 0; e < mesh->element_count; e++) {
     const double f[3] = {cos(30 * degree) * sqrt(0.5), sin(30 * degree) * sqrt(0.5), sqrt(0.5)};
     assert_close(fabs(vsc_dot(f, &axes->frames[9 * e])), 1, 0, 1e-6);
   }

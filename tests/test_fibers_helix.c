@@ -172,12 +172,12 @@ static void ventricle_has_its_angles(void **state)
   vsc_fiber_report report;
   assert_int_equal(vsc_fibers_make(mesh, &definition, surfaces, 2, &axes, &report, NULL), VSC_OK);
   assert_true(vsc_axes_valid(axes));
-  assert_int_equal(report.with_data, mesh->tet_count);
+  assert_int_equal(report.with_data, mesh->element_count);
   double sum[2] = {0}, worst = 0, radial = 1;
   size_t count[2] = {0};
-  for (size_t e = 0; e < mesh->tet_count; e++) {
+  for (size_t e = 0; e < mesh->element_count; e++) {
     double at[3], frame[9];
-    vsc_mesh_tet_centre(mesh, e, at);
+    vsc_mesh_element_centre(mesh, e, at);
     const double t = vsc_lv_depth(&lv, at), *f = &axes->frames[9 * e];
     if ((t > 0.1 && t < 0.9) || at[2] < -0.9 * lv.endo_length) continue;
     vsc_lv_frame(&lv, at, 0, 0, frame);
@@ -253,11 +253,11 @@ static void a_flat_tet_takes_its_neighbours_gradient(void **state)
   assert_int_equal(vsc_block_mesh(&shape, &mesh, NULL), VSC_OK);
   uint32_t lower[12], upper[3] = {8, 9, 11};
   for (int i = 0; i < 4; i++)
-    for (int j = 0; j < 3; j++) lower[3 * i + j] = mesh->tets[(i + j) % 4];
+    for (int j = 0; j < 3; j++) lower[3 * i + j] = mesh->corners[(i + j) % 4];
   const vsc_surface endo = {.count = 4, .triangles = lower}, epi = {.count = 1, .triangles = upper};
   vsc_fiber_def definition = helix_definition();
   definition.long_axis[0] = 1;
-  vsc_axes *axes = vsc_axes_create(mesh->tet_count);
+  vsc_axes *axes = vsc_axes_create(mesh->element_count);
   assert_int_equal(vsc_fibers_helix(mesh, &definition, &endo, &epi, axes, NULL), VSC_OK);
   assert_int_equal(axes->known[0], 1);
   assert_true(vsc_axes_valid(axes));

@@ -44,10 +44,10 @@ static size_t voxels_of(const vsc_image *image)
 
 static void accept(const vsc_mesh *mesh, const vsc_image *image, const vsc_angle_map_def *map)
 {
-  vsc_axes *axes = vsc_axes_create(mesh->tet_count);
+  vsc_axes *axes = vsc_axes_create(mesh->element_count);
   vsc_fiber_report report;
   assert_int_equal(vsc_fibers_sample(mesh, image, map, axes, &report, NULL), VSC_OK);
-  assert_int_equal(report.with_data, mesh->tet_count);
+  assert_int_equal(report.with_data, mesh->element_count);
   vsc_axes_free(axes);
 }
 
@@ -55,7 +55,7 @@ static void accept(const vsc_mesh *mesh, const vsc_image *image, const vsc_angle
 static void refuse(const vsc_mesh *mesh, const vsc_image *image, const vsc_angle_map_def *map,
                    const char *word)
 {
-  vsc_axes *axes = vsc_axes_create(mesh->tet_count);
+  vsc_axes *axes = vsc_axes_create(mesh->element_count);
   vsc_fiber_report report;
   vsc_error error = {.text = ""};
   assert_int_equal(vsc_fibers_sample(mesh, image, map, axes, &report, &error), VSC_INPUT);
@@ -114,7 +114,7 @@ static void little_memory_is_reported(void **state)
   vsc_mesh *mesh = slab();
   vsc_image *image = map_of_slab();
   const vsc_angle_map_def map = vsc_default_fiber().map;
-  vsc_axes *axes = vsc_axes_create(mesh->tet_count);
+  vsc_axes *axes = vsc_axes_create(mesh->element_count);
   vsc_fiber_report report;
   vsc_status status = VSC_SYSTEM;
   long allowed = 0;

@@ -63,18 +63,18 @@ static void human_heart(void **state)
   assert_true(vsc_axes_valid(axes));
   assert_int_equal(report.passive, 0);
   assert_true(report.coherence[0] > 0.6);
-  const double *nearest = vsc_arrays_find(&mesh->tet_data, "fiber")->values;
-  double *angles = test_malloc(mesh->tet_count * sizeof *angles);
-  for (size_t e = 0; e < mesh->tet_count; e++)
+  const double *nearest = vsc_arrays_find(&mesh->element_data, "fiber")->values;
+  double *angles = test_malloc(mesh->element_count * sizeof *angles);
+  for (size_t e = 0; e < mesh->element_count; e++)
     angles[e] = axis_angle(&nearest[3 * e], &axes->frames[9 * e]);
-  qsort(angles, mesh->tet_count, sizeof *angles, by_value);
+  qsort(angles, mesh->element_count, sizeof *angles, by_value);
   print_message(
       "human heart: %zu of %zu elements with data, %zu interpolated, %zu filled; from the nearest "
       "voxel by %.1f (median), %.1f (90 %%) degrees\n",
       report.with_data, report.elements, report.fallback, report.filled,
-      angles[mesh->tet_count / 2], angles[mesh->tet_count * 9 / 10]);
-  assert_true(angles[mesh->tet_count / 2] < 5);
-  assert_true(angles[mesh->tet_count * 9 / 10] < 15);
+      angles[mesh->element_count / 2], angles[mesh->element_count * 9 / 10]);
+  assert_true(angles[mesh->element_count / 2] < 5);
+  assert_true(angles[mesh->element_count * 9 / 10] < 15);
   test_free(angles);
   vsc_axes_free(axes);
   vsc_mesh_free(mesh);

@@ -115,7 +115,7 @@ static void write_field(vsc_image *image, const field *field, bool image_axes)
 static vsc_axes *sample(const vsc_mesh *mesh, const vsc_image *image, const vsc_angle_map_def *map,
                         vsc_fiber_report *report)
 {
-  vsc_axes *axes = vsc_axes_create(mesh->tet_count);
+  vsc_axes *axes = vsc_axes_create(mesh->element_count);
   assert_non_null(axes);
   vsc_error error = {.text = ""};
   const vsc_status status = vsc_fibers_sample(mesh, image, map, axes, report, &error);
@@ -128,12 +128,12 @@ static vsc_axes *sample(const vsc_mesh *mesh, const vsc_image *image, const vsc_
 // The part `part` of the errors over known elements, degrees.
 static double error_at(const vsc_mesh *mesh, const vsc_axes *axes, const field *field, double part)
 {
-  double *errors = test_malloc(mesh->tet_count * sizeof *errors);
+  double *errors = test_malloc(mesh->element_count * sizeof *errors);
   size_t known = 0;
-  for (size_t e = 0; e < mesh->tet_count; e++) {
+  for (size_t e = 0; e < mesh->element_count; e++) {
     if (!axes->known[e]) continue;
     double centre[3], f[3];
-    vsc_mesh_tet_centre(mesh, e, centre);
+    vsc_mesh_element_centre(mesh, e, centre);
     fiber_at(field, centre, f);
     errors[known++] = axis_angle(f, &axes->frames[9 * e]);
   }
@@ -159,7 +159,7 @@ static void sampled_field_is(const field *field, const double direction[9], bool
   map.image_axes = image_axes;
   vsc_fiber_report report;
   vsc_axes *axes = sample(mesh, image, &map, &report);
-  assert_int_equal(report.with_data, mesh->tet_count);
+  assert_int_equal(report.with_data, mesh->element_count);
   const double error = error_at(mesh, axes, field, part);
   if (!(error <= limit)) print_error("error %g degrees, allowed %g\n", error, limit);
   assert_true(error <= limit);
@@ -235,7 +235,7 @@ static void sign_of_a_fibre_does_not_matter(void **state)
     image->data.items[1].values[v] *= -1;
   }
   vsc_axes *flipped = sample(mesh, image, &map, &report);
-  for (size_t e = 0; e < mesh->tet_count; e++)
+  for (size_t e = 0; e < mesh->element_count; e++)
     assert_close(axis_angle(&axes->frames[9 * e], &flipped->frames[9 * e]), 0, 0, 1e-11);
   vsc_axes_free(axes);
   vsc_axes_free(flipped);
@@ -326,19 +326,19 @@ static void ventricle_map_comes_back(void **state)
   vsc_copy_name(map.mask, "tissue");
   vsc_fiber_report report;
   vsc_axes *axes = sample(mesh, image, &map, &report);
-  double *errors = test_malloc(mesh->tet_count * sizeof *errors);
-  for (size_t e = 0; e < mesh->tet_count; e++) {
+  double *errors = test_malloc(mesh->element_count * sizeof *errors);
+  for (size_t e = 0; e < mesh->element_count; e++) {
     double centre[3], frame[9];
     assert_true(axes->known[e]);
-    vsc_mesh_tet_centre(mesh, e, centre);
+    vsc_mesh_element_centre(mesh, e, centre);
     vsc_lv_frame(&lv, centre, 60 * degree, -60 * degree, frame);
     errors[e] = axis_angle(frame, &axes->frames[9 * e]);
   }
-  qsort(errors, mesh->tet_count, sizeof *errors, by_value);
+  qsort(errors, mesh->element_count, sizeof *errors, by_value);
   print_message("ventricle: median error %.2f, 90th percentile %.2f degrees\n",
-                errors[mesh->tet_count / 2], errors[mesh->tet_count * 9 / 10]);
-  assert_true(errors[mesh->tet_count / 2] < 0.9);
-  assert_true(errors[mesh->tet_count * 9 / 10] < 3);
+                errors[mesh->element_count / 2], errors[mesh->element_count * 9 / 10]);
+  assert_true(errors[mesh->element_count / 2] < 0.9);
+  assert_true(errors[mesh->element_count * 9 / 10] < 3);
   test_free(errors);
   vsc_axes_free(axes);
   vsc_image_free(image);
@@ -362,9 +362,9 @@ static void elements_without_data_are_unknown(void **state)
   vsc_copy_name(map.mask, "mask");
   vsc_fiber_report report;
   vsc_axes *axes = sample(mesh, image, &map, &report);
-  assert_int_equal(report.with_data + report.passive, mesh->tet_count);
-  assert_in_range(report.with_data, mesh->tet_count / 4, mesh->tet_count / 2);
-  for (size_t e = 0; e < mesh->tet_count; e++)
+  assert_int_equal(report.with_data + report.passive, mesh->element_count);
+  assert_in_range(report.with_data, mesh->element_count / 4, mesh->element_count / 2);
+  for (size_t e = 0; e < mesh->element_count; e++)
     if (!axes->known[e]) assert_close(axes->frames[9 * e], 1, 0, 0);
   size_t filled;
   assert_int_equal(vsc_fibers_fill(mesh, axes, &filled, NULL), VSC_OK);

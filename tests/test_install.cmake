@@ -37,7 +37,7 @@ int main(void)
   vsc_mesh *mesh = NULL;
   vsc_error error;
   if (vsc_mesh_from_arrays(4, nodes, 1, tet, &mesh, &error) != VSC_OK) return puts(error.text), 1;
-  printf("volume %g\n", vsc_mesh_tet_volume(mesh, 0));
+  printf("volume %g\n", vsc_mesh_element_volume(mesh, 0));
   vsc_mesh_free(mesh);
   return 0;
 }

@@ -72,13 +72,13 @@ static void a_mixed_grid_is_sorted(void **state)
   assert_string_equal(mesh->report.ignored_kinds, "1 vertices, 1 hexahedra");
   assert_int_equal(mesh->report.turned_tets, 1);
   assert_int_equal(mesh->report.unused_nodes, 1);
-  assert_int_equal(mesh->tet_count, 2);
-  assert_int_equal(mesh->tet_source[0], 1);
-  assert_int_equal(mesh->tet_source[1], 4);
+  assert_int_equal(mesh->element_count, 2);
+  assert_int_equal(mesh->element_source[0], 1);
+  assert_int_equal(mesh->element_source[1], 4);
   assert_int_equal(mesh->triangle_count, 1);
   assert_int_equal(mesh->node_count, 8);
-  assert_close(vsc_mesh_tet_volume(mesh, 0), 1000. / 6, 1e-14, 0);
-  assert_close(vsc_mesh_tet_volume(mesh, 1), 1000. / 6, 1e-14, 0);
+  assert_close(vsc_mesh_element_volume(mesh, 0), 1000. / 6, 1e-14, 0);
+  assert_close(vsc_mesh_element_volume(mesh, 1), 1000. / 6, 1e-14, 0);
   const uint32_t triangle[3] = {0, 1, 4};
   assert_memory_equal(mesh->triangles, triangle, sizeof triangle);
   vsc_mesh_free(mesh);
@@ -94,7 +94,7 @@ static void every_number_type_is_read(void **state)
   } rows[] = {{"u8", 201, 204, 202}, {"i8", -2, -5, -3}, {"u16", 1, 4, 2}, {"i32", -70000, 7, 5},
               {"u32", 4e9, 7, 5}, {"i64", -5e9, 7, 5}, {"u64", 5e9, 7, 5}};
   for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-    const vsc_array *on_tets = array_of(&mesh->tet_data, rows[i].name, 1);
+    const vsc_array *on_tets = array_of(&mesh->element_data, rows[i].name, 1);
     const vsc_array *on_triangles = array_of(&mesh->triangle_data, rows[i].name, 1);
     assert_int_equal(on_tets->tuples, 2);
     assert_int_equal(on_triangles->tuples, 1);
@@ -103,9 +103,9 @@ static void every_number_type_is_read(void **state)
     assert_close(on_triangles->values[0], rows[i].triangle, 0, 0);
   }
   const double pairs[4] = {2, 3, 8, 9.25};
-  assert_memory_equal(array_of(&mesh->tet_data, "f64", 2)->values, pairs, sizeof pairs);
-  assert_null(vsc_arrays_find(&mesh->tet_data, "text"));
-  assert_int_equal(mesh->tet_data.count, 8);
+  assert_memory_equal(array_of(&mesh->element_data, "f64", 2)->values, pairs, sizeof pairs);
+  assert_null(vsc_arrays_find(&mesh->element_data, "text"));
+  assert_int_equal(mesh->element_data.count, 8);
   const double nodes[8] = {0, -1, 2, 3, 4, 5, 6, 7};
   assert_memory_equal(array_of(&mesh->node_data, "p", 1)->values, nodes, sizeof nodes);
   vsc_mesh_free(mesh);
@@ -113,12 +113,12 @@ static void every_number_type_is_read(void **state)
 
 static void check_legacy(const vsc_mesh *mesh)
 {
-  assert_int_equal(mesh->tet_count, 1);
+  assert_int_equal(mesh->element_count, 1);
   assert_int_equal(mesh->triangle_count, 1);
-  assert_close(vsc_mesh_tet_volume(mesh, 0), 8. / 6, 1e-14, 0);
-  assert_close(array_of(&mesh->tet_data, "first", 1)->values[0], 3, 0, 0);
+  assert_close(vsc_mesh_element_volume(mesh, 0), 8. / 6, 1e-14, 0);
+  assert_close(array_of(&mesh->element_data, "first", 1)->values[0], 3, 0, 0);
   assert_close(array_of(&mesh->triangle_data, "second", 1)->values[0], 6, 0, 0);
-  assert_close(array_of(&mesh->tet_data, "fiber", 3)->values[1], 1, 0, 0);
+  assert_close(array_of(&mesh->element_data, "fiber", 3)->values[1], 1, 0, 0);
   assert_close(array_of(&mesh->node_data, "field", 2)->values[7], 8, 0, 0);
 }
 
@@ -185,7 +185,7 @@ static void binary_legacy_files_are_read(void **state)
   char file[1000];
   const size_t used = binary_legacy((uint32_t[]){4, 0, 1, 2, 3}, file);
   vsc_mesh *mesh = read_mesh(scratch_bytes("binary.vtk", file, used), 1);
-  assert_close(vsc_mesh_tet_volume(mesh, 0), 1. / 6, 1e-14, 0);
+  assert_close(vsc_mesh_element_volume(mesh, 0), 1. / 6, 1e-14, 0);
   assert_memory_equal(array_of(&mesh->node_data, "position", 3)->values, mesh->nodes,
                       12 * sizeof(double));
   vsc_mesh_free(mesh);
@@ -216,12 +216,12 @@ static vsc_mesh *write_box(const char *path, bool double_precision, double *shad
   vsc_mesh *mesh = box_mesh(n, 1. / 3, NULL);
   vsc_surface boundary;
   assert_int_equal(vsc_boundary(mesh, &boundary, NULL), VSC_OK);
-  for (size_t i = 0; i < mesh->tet_count; i++) shade[i] = (double)i - 10.4;
+  for (size_t i = 0; i < mesh->element_count; i++) shade[i] = (double)i - 10.4;
   const vsc_vtk_array arrays[] = {{"position", 3, mesh->nodes, true, false},
                                   {"shade", 1, shade, false, false},
                                   {"region", 1, shade, false, true}};
   vsc_error error = {0};
-  if (vsc_vtk_write_mesh(path, mesh->node_count, mesh->nodes, mesh->tet_count, mesh->tets,
+  if (vsc_vtk_write_mesh(path, mesh->node_count, mesh->nodes, mesh->element_count, mesh->corners,
                          boundary.count, boundary.triangles, 3, arrays, double_precision,
                          &error) != VSC_OK)
     fail_msg("%s", error.text);
@@ -238,18 +238,18 @@ static void what_is_written_reads_back(void **state)
     vsc_mesh *mesh = write_box(scratch("box.vtu"), precision, shade);
     vsc_mesh *back = read_mesh(scratch("box.vtu"), 1);
     assert_int_equal(back->node_count, mesh->node_count);
-    assert_int_equal(back->tet_count, mesh->tet_count);
+    assert_int_equal(back->element_count, mesh->element_count);
     assert_int_equal(back->triangle_count, 2 * 2 * (12 + 8 + 6));
     assert_int_equal(back->report.turned_tets, 0);
-    assert_memory_equal(back->tets, mesh->tets, 4 * mesh->tet_count * sizeof *mesh->tets);
+    assert_memory_equal(back->corners, mesh->corners, 4 * mesh->element_count * sizeof *mesh->corners);
     const vsc_array *position = array_of(&back->node_data, "position", 3);
     for (size_t i = 0; i < 3 * mesh->node_count; i++) {
       assert_close(back->nodes[i], mesh->nodes[i], tolerance, 0);
       assert_close(position->values[i], mesh->nodes[i], tolerance, 0);
     }
-    for (size_t i = 0; i < mesh->tet_count; i++) {
-      assert_close(array_of(&back->tet_data, "shade", 1)->values[i], shade[i], tolerance, 0);
-      assert_close(array_of(&back->tet_data, "region", 1)->values[i], (double)i - 10, 0, 0);
+    for (size_t i = 0; i < mesh->element_count; i++) {
+      assert_close(array_of(&back->element_data, "shade", 1)->values[i], shade[i], tolerance, 0);
+      assert_close(array_of(&back->element_data, "region", 1)->values[i], (double)i - 10, 0, 0);
     }
     assert_close(array_of(&back->triangle_data, "shade", 1)->values[5], 0, 0, 0);
     vsc_mesh_free(back);

@@ -202,8 +202,8 @@ static void points_that_are_not_numbers(void **state)
   for (int i = 0; i < 3; i++) {
     mesh->nodes[3 * 5 + i] = odd[i];
     const char *path = scratch("nan.vtu");
-    assert_int_equal(vsc_vtk_write_mesh(path, mesh->node_count, mesh->nodes, mesh->tet_count,
-                                        mesh->tets, 0, NULL, 0, NULL, true, NULL), VSC_OK);
+    assert_int_equal(vsc_vtk_write_mesh(path, mesh->node_count, mesh->nodes, mesh->element_count,
+                                        mesh->corners, 0, NULL, 0, NULL, true, NULL), VSC_OK);
     assert_no_mesh(path, "points 5");
     mesh->nodes[3 * 5 + i] = 1;
   }
@@ -231,8 +231,8 @@ static const char *write_box(const char *name)
   vsc_mesh *mesh = box_mesh(n, 1, NULL);
   const vsc_vtk_array array = {"position", 3, mesh->nodes, true, false};
   const char *path = scratch(name);
-  assert_int_equal(vsc_vtk_write_mesh(path, mesh->node_count, mesh->nodes, mesh->tet_count,
-                                      mesh->tets, 0, NULL, 1, &array, false, NULL), VSC_OK);
+  assert_int_equal(vsc_vtk_write_mesh(path, mesh->node_count, mesh->nodes, mesh->element_count,
+                                      mesh->corners, 0, NULL, 1, &array, false, NULL), VSC_OK);
   vsc_mesh_free(mesh);
   return path;
 }

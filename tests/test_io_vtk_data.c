@@ -55,11 +55,11 @@ static void small_liver_with_turned_tets(void **state)
   assert_int_equal(turned->report.turned_tets, 367);
   assert_int_equal(straight->report.turned_tets, 0);
   assert_int_equal(turned->node_count, 175);
-  assert_int_equal(turned->tet_count, 733);
+  assert_int_equal(turned->element_count, 733);
   double volumes[2] = {0};
   for (size_t t = 0; t < 733; t++) {
-    volumes[0] += vsc_mesh_tet_volume(turned, t);
-    volumes[1] += vsc_mesh_tet_volume(straight, t);
+    volumes[0] += vsc_mesh_element_volume(turned, t);
+    volumes[1] += vsc_mesh_element_volume(straight, t);
   }
   assert_close(volumes[0], volumes[1], 1e-13, 0);
   check_sound(turned);
@@ -75,7 +75,7 @@ static void ventricle_with_surface_triangles(void **state)
 {
   (void)state;
   vsc_mesh *mesh = read_mesh("heart_lv_human_mixed.vtu");
-  assert_int_equal(mesh->tet_count, 24206);
+  assert_int_equal(mesh->element_count, 24206);
   assert_int_equal(mesh->triangle_count + mesh->report.loose_triangles, 7437);
   assert_int_equal(mesh->report.loose_triangles, 118);
   assert_int_equal(mesh->report.unused_nodes, 2);
@@ -93,7 +93,7 @@ static void ventricles_in_base64(void **state)
   (void)state;
   vsc_mesh *mesh = read_mesh("heart_biv_plain.vtu");
   assert_int_equal(mesh->node_count, 2926);
-  assert_int_equal(mesh->tet_count, 13603);
+  assert_int_equal(mesh->element_count, 13603);
   check_sound(mesh);
   vsc_mesh_free(mesh);
 }
@@ -155,7 +155,7 @@ static void human_ventricles_with_bad_edges(void **state)
   vsc_topology topology;
   double low[3], high[3];
   assert_int_equal(mesh->node_count, 9376);
-  assert_int_equal(mesh->tet_count, 37381);
+  assert_int_equal(mesh->element_count, 37381);
   assert_int_equal(vsc_boundary(mesh, &boundary, NULL), VSC_OK);
   assert_int_equal(count_bad_edges(&boundary), 76);
   check_sound(mesh);

@@ -60,11 +60,11 @@ static void activation_arrays_may_be_absent(void **state)
     for (int known = 0; known < 2; known++) {
       random_body body;
       vsc_mesh *mesh = random_block(4, 3);
-      body_define(&body, mesh, random_axes(mesh->tet_count, 4), VSC_ACTIVE_SPRING,
+      body_define(&body, mesh, random_axes(mesh->element_count, 4), VSC_ACTIVE_SPRING,
                   VSC_VOLUME_NODAL);
       if (!(arrays & 1)) body.materials[0].active.amplitude_array[0] = '\0';
       if (!(arrays & 2)) body.materials[0].active.delay_array[0] = '\0';
-      if (known) memset(body.axes->known, 1, mesh->tet_count);
+      if (known) memset(body.axes->known, 1, mesh->element_count);
       body_build(&body);
       compare_with_oracle(&body, 0.1, 9);
       body_close(&body);
@@ -77,11 +77,11 @@ static double active_energy(random_body *body, double time)
 {
   const vsc_material_def *muscle = &body->materials[0];
   const double E = muscle->axial[0];
-  double *stretch = numbers(body->mesh->tet_count), sum = 0;
+  double *stretch = numbers(body->mesh->element_count), sum = 0;
   vsc_read_field(body->model, body->state, VSC_FIELD_STRETCH, stretch);
-  for (size_t t = 0; t < body->mesh->tet_count; t++) {
+  for (size_t t = 0; t < body->mesh->element_count; t++) {
     const double a = oracle_activation(body, t, time), n = stretch[t];
-    const double V = vsc_mesh_tet_volume(body->mesh, t);
+    const double V = vsc_mesh_element_volume(body->mesh, t);
     const double E_now = E + a * (muscle->active.stiffness - E),
                  r = 1 - a * (1 - muscle->active.rest_stretch);
     if (muscle->active.kind == VSC_ACTIVE_TENSION)
@@ -177,7 +177,7 @@ static void forces_and_moments_sum_to_zero(void **state)
     for (int v = 0; v < 2; v++) {
       random_body body;
       vsc_mesh *mesh = random_block(BRICKS, 50);
-      body_define(&body, mesh, random_axes(mesh->tet_count, 51), kinds[k], volumes[v]);
+      body_define(&body, mesh, random_axes(mesh->element_count, 51), kinds[k], volumes[v]);
       memset(body.definition.gravity, 0, sizeof body.definition.gravity);
       body_build(&body);
       const size_t count = 3 * mesh->node_count;
@@ -202,7 +202,7 @@ static void rigid_motion_gives_no_force(void **state)
   for (int round = 0; round < 10; round++) {
     random_body body;
     vsc_mesh *mesh = random_block(4, 61);
-    body_define(&body, mesh, random_axes(mesh->tet_count, 62), VSC_ACTIVE_SPRING,
+    body_define(&body, mesh, random_axes(mesh->element_count, 62), VSC_ACTIVE_SPRING,
                 volumes[round % 2]);
     without_loads(&body);
     body_build(&body);
@@ -228,7 +228,7 @@ static void forces_turn_with_the_body(void **state)
   (void)state;
   random_body body;
   vsc_mesh *mesh = random_block(4, 63);
-  body_define(&body, mesh, random_axes(mesh->tet_count, 64), VSC_ACTIVE_TENSION, VSC_VOLUME_NODAL);
+  body_define(&body, mesh, random_axes(mesh->element_count, 64), VSC_ACTIVE_TENSION, VSC_VOLUME_NODAL);
   memset(body.definition.gravity, 0, sizeof body.definition.gravity);
   body_build(&body);
   const size_t nodes = mesh->node_count;
@@ -335,7 +335,7 @@ static void scatter_is_the_transpose_of_gather(void **state)
   (void)state;
   random_body body;
   vsc_mesh *mesh = random_block(4, 80);
-  body_define(&body, mesh, random_axes(mesh->tet_count, 81), VSC_ACTIVE_NONE, VSC_VOLUME_ELEMENT);
+  body_define(&body, mesh, random_axes(mesh->element_count, 81), VSC_ACTIVE_NONE, VSC_VOLUME_ELEMENT);
   without_loads(&body);
   body_build(&body);
   const vsc_model *model = body.model;
@@ -351,8 +351,8 @@ static void scatter_is_the_transpose_of_gather(void **state)
       vsc_wide3 rate[3];
       vsc_pack_axes(model, patch, &model->packs[k], u_model, rate);
       for (int l = 0; l < VSC_WIDTH; l++) {
-        const uint32_t t = model->mesh_tet[VSC_WIDTH * k + (size_t)l];
-        if (t == VSC_NO_TET) continue;
+        const uint32_t t = model->mesh_element[VSC_WIDTH * k + (size_t)l];
+        if (t == VSC_NO_ELEMENT) continue;
         const oracle_tet tet = oracle_read(&body, t, x, NULL, 0);
         work += virtual_work(&tet, rate, l, &size);
       }

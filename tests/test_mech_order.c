@@ -149,14 +149,14 @@ static size_t *shuffled(size_t count, uint64_t seed)
 
 static vsc_mesh *transform_mesh(const vsc_mesh *mesh, const transformation *to)
 {
-  vsc_mesh *other = vsc_mesh_create(mesh->node_count, mesh->tet_count, 0);
+  vsc_mesh *other = vsc_mesh_create(mesh->node_count, mesh->element_count, 0);
   for (size_t n = 0; n < mesh->node_count; n++) {
     double *x = other->nodes + 3 * to->node[n];
     memcpy(x, mesh->nodes + 3 * n, 3 * sizeof *x);
     x[0] *= to->mirror;
   }
-  for (size_t t = 0; t < mesh->tet_count; t++) {
-    const uint32_t *old = mesh->tets + 4 * t;
+  for (size_t t = 0; t < mesh->element_count; t++) {
+    const uint32_t *old = mesh->corners + 4 * t;
     uint32_t corners[4] = {old[0], old[1 + to->turn % 3], old[1 + (to->turn + 1) % 3],
                            old[1 + (to->turn + 2) % 3]};
     if (to->mirror < 0) {
@@ -165,12 +165,12 @@ static vsc_mesh *transform_mesh(const vsc_mesh *mesh, const transformation *to)
       corners[3] = third;
     }
     for (int c = 0; c < 4; c++)
-      other->tets[4 * to->tet[t] + (size_t)c] = (uint32_t)to->node[corners[c]];
+      other->corners[4 * to->tet[t] + (size_t)c] = (uint32_t)to->node[corners[c]];
   }
-  for (size_t k = 0; k < mesh->tet_data.count; k++) {
-    const vsc_array *array = &mesh->tet_data.items[k];
-    double *values = vsc_arrays_add(&other->tet_data, array->name, 1, mesh->tet_count)->values;
-    for (size_t t = 0; t < mesh->tet_count; t++) values[to->tet[t]] = array->values[t];
+  for (size_t k = 0; k < mesh->element_data.count; k++) {
+    const vsc_array *array = &mesh->element_data.items[k];
+    double *values = vsc_arrays_add(&other->element_data, array->name, 1, mesh->element_count)->values;
+    for (size_t t = 0; t < mesh->element_count; t++) values[to->tet[t]] = array->values[t];
   }
   return other;
 }
@@ -260,7 +260,7 @@ static void pressure_follows_its_face(void **state)
   vsc_selector face = {
       .name = "end", .kind = VSC_SELECT_NODE_ARRAY, .array = "x1", .low = 1, .high = 1};
   vsc_mesh *mesh = random_block(4, 260);
-  body_define(&body, mesh, random_axes(mesh->tet_count, 261), VSC_ACTIVE_NONE, VSC_VOLUME_NODAL);
+  body_define(&body, mesh, random_axes(mesh->element_count, 261), VSC_ACTIVE_NONE, VSC_VOLUME_NODAL);
   memset(body.definition.gravity, 0, sizeof body.definition.gravity);
   body.definition.surfaces = &face;
   body.definition.surface_count = 1;

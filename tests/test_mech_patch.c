@@ -17,8 +17,8 @@ static void open_uniform(random_body *body, size_t n, const double frame[9],
                          const vsc_material_def *material, vsc_volume_kind volume)
 {
   vsc_mesh *mesh = random_block(n, 300 + n);
-  vsc_axes *axes = vsc_axes_create(mesh->tet_count);
-  for (size_t t = 0; t < mesh->tet_count; t++) {
+  vsc_axes *axes = vsc_axes_create(mesh->element_count);
+  for (size_t t = 0; t < mesh->element_count; t++) {
     memcpy(axes->frames + 9 * t, frame, 9 * sizeof *frame);
     axes->known[t] = 1;
   }

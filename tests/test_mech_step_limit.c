@@ -47,8 +47,8 @@ enum { SCENES = sizeof scenes / sizeof scenes[0] };
 static double smallest_volume(const vsc_mesh *mesh)
 {
   double smallest = INFINITY;
-  for (size_t t = 0; t < mesh->tet_count; t++)
-    smallest = fmin(smallest, vsc_mesh_tet_volume(mesh, t));
+  for (size_t t = 0; t < mesh->element_count; t++)
+    smallest = fmin(smallest, vsc_mesh_element_volume(mesh, t));
   return smallest;
 }
 
@@ -56,13 +56,13 @@ static double smallest_volume(const vsc_mesh *mesh)
 // other tet is worse; takes the first tet of region 2 where that can be done.
 static void make_sliver(vsc_mesh *mesh)
 {
-  const double *region = vsc_arrays_find(&mesh->tet_data, "region")->values;
-  for (size_t t = 0; t < mesh->tet_count; t++) {
+  const double *region = vsc_arrays_find(&mesh->element_data, "region")->values;
+  for (size_t t = 0; t < mesh->element_count; t++) {
     if (region[t] != 2) continue;
-    const uint32_t *node = mesh->tets + 4 * t;
+    const uint32_t *node = mesh->corners + 4 * t;
     double *top = mesh->nodes + 3 * (size_t)node[0], before[3];
     memcpy(before, top, sizeof before);
-    const double wanted = 0.02 * vsc_mesh_tet_volume(mesh, t);
+    const double wanted = 0.02 * vsc_mesh_element_volume(mesh, t);
     for (int i = 0; i < 3; i++) {
       double centre = 0;
       for (int c = 1; c < 4; c++) centre += mesh->nodes[3 * (size_t)node[c] + (size_t)i] / 3;
@@ -81,7 +81,7 @@ static void scene_open(random_body *body, const scene *s)
   static const vsc_support_def support = {.set = "foot", .held = {1, 1, 1}};
   vsc_mesh *mesh = random_block(3, 401);
   if (s->sliver) make_sliver(mesh);
-  body_define(body, mesh, random_axes(mesh->tet_count, 402), s->active, s->volume);
+  body_define(body, mesh, random_axes(mesh->element_count, 402), s->active, s->volume);
   for (int m = 0; m < 2; m++) {
     for (int a = 0; a < 3; a++) body->materials[m].damping[a] = m == 0 ? s->damping : 0;
     body->materials[m].volume_modulus = s->volume_modulus * (m == 0 ? 0.1 : 1);
@@ -317,7 +317,7 @@ static void the_bound_is_a_bound(void **state)
     const double bound = vsc_limit_bound(body.model, &body.state->scratch, &slot);
     const double truth = true_eigenvalue(d, 0);
     assert_true(slot < VSC_WIDTH * body.model->pack_count &&
-                body.model->mesh_tet[slot] != VSC_NO_TET);
+                body.model->mesh_element[slot] != VSC_NO_ELEMENT);
     assert_true(bound >= truth && bound < 13 * truth);
     dense_free(d);
     body_close(&body);
@@ -337,7 +337,7 @@ static double bound_of_two(const vsc_material_def materials[2], vsc_volume_kind 
   random_body body;
   size_t slot = SIZE_MAX;
   if (vsc_mesh_from_arrays(5, nodes, 2, tets, &mesh, &error) != VSC_OK) fail_msg("%s", error.text);
-  vsc_array *region = vsc_arrays_add(&mesh->tet_data, "region", 1, 2);
+  vsc_array *region = vsc_arrays_add(&mesh->element_data, "region", 1, 2);
   region->values[0] = 1;
   region->values[1] = 2;
   vsc_axes *axes = vsc_axes_create(2);
@@ -349,7 +349,7 @@ static double bound_of_two(const vsc_material_def materials[2], vsc_volume_kind 
   const double bound = vsc_limit_bound(body.model, &body.state->scratch, &slot);
   dense d = dense_of(&body, 2 * RAMP_TIME);
   assert_true(true_eigenvalue(d, 0) <= bound);
-  assert_int_equal(body.model->mesh_tet[slot], 1);
+  assert_int_equal(body.model->mesh_element[slot], 1);
   dense_free(d);
   body_close(&body);
   return bound;
@@ -391,12 +391,12 @@ static void the_bound_points_at_the_sliver(void **state)
   scene_open(&body, &scenes[2]);
   vsc_limit_bound(body.model, &body.state->scratch, &slot);
   size_t worst = 0;
-  for (size_t t = 0; t < body.mesh->tet_count; t++)
-    if (vsc_mesh_tet_volume(body.mesh, t) < vsc_mesh_tet_volume(body.mesh, worst)) worst = t;
+  for (size_t t = 0; t < body.mesh->element_count; t++)
+    if (vsc_mesh_element_volume(body.mesh, t) < vsc_mesh_element_volume(body.mesh, worst)) worst = t;
   int common = 0;
   for (int i = 0; i < 16; i++)
-    common += body.mesh->tets[4 * worst + (size_t)i % 4] ==
-              body.mesh->tets[4 * body.model->mesh_tet[slot] + (size_t)i / 4];
+    common += body.mesh->corners[4 * worst + (size_t)i % 4] ==
+              body.mesh->corners[4 * body.model->mesh_element[slot] + (size_t)i / 4];
   assert_true(common >= 3);
   body_close(&body);
 }

@@ -16,9 +16,9 @@ static vsc_status clean_two(const uint32_t second[4], const double last[3], vsc_
   const uint32_t first[4] = {0, 1, 2, 3};
   memcpy(mesh->nodes, CORNERS, sizeof CORNERS);
   memcpy(mesh->nodes + 12, last, 3 * sizeof *last);
-  memcpy(mesh->tets, first, sizeof first);
-  memcpy(mesh->tets + 4, second, 4 * sizeof *second);
-  mesh->tet_source[1] = 77;
+  memcpy(mesh->corners, first, sizeof first);
+  memcpy(mesh->corners + 4, second, 4 * sizeof *second);
+  mesh->element_source[1] = 77;
   mesh->node_source[4] = 99;
   const vsc_status status = vsc_mesh_clean(mesh, "heart.vtu", error);
   vsc_mesh_free(mesh);
@@ -69,7 +69,7 @@ static void at_most_five_ids_are_named(void **state)
   (void)state;
   const int n[3] = {2, 2, 2};
   vsc_mesh *mesh = box_mesh_raw(n, 1, NULL);
-  for (size_t i = 0; i < 4 * mesh->tet_count; i++) mesh->tets[i] = 0;
+  for (size_t i = 0; i < 4 * mesh->element_count; i++) mesh->corners[i] = 0;
   vsc_error error;
   assert_int_equal(vsc_mesh_clean(mesh, "m", &error), VSC_INPUT);
   assert_non_null(strstr(error.text, "48 tetrahedra"));
@@ -94,18 +94,18 @@ static void left_handed_tets_are_turned(void **state)
   const int n[3] = {3, 2, 2};
   vsc_mesh *raw = box_mesh_raw(n, 0.5, NULL);
   size_t left = 0;
-  for (size_t t = 0; t < raw->tet_count; t++) left += vsc_mesh_tet_volume(raw, t) < 0;
-  assert_int_equal(left, raw->tet_count / 2);
+  for (size_t t = 0; t < raw->element_count; t++) left += vsc_mesh_element_volume(raw, t) < 0;
+  assert_int_equal(left, raw->element_count / 2);
   vsc_mesh *mesh;
-  assert_int_equal(vsc_mesh_from_arrays(raw->node_count, raw->nodes, raw->tet_count, raw->tets,
+  assert_int_equal(vsc_mesh_from_arrays(raw->node_count, raw->nodes, raw->element_count, raw->corners,
                                         &mesh, NULL), VSC_OK);
   assert_int_equal(mesh->report.turned_tets, left);
   double sum = 0;
-  for (size_t t = 0; t < mesh->tet_count; t++) {
-    assert_true(vsc_mesh_tet_volume(mesh, t) > 0);
-    sum += vsc_mesh_tet_volume(mesh, t);
-    assert_int_equal(mesh->tets[4 * t], raw->tets[4 * t]);
-    assert_int_equal(mesh->tets[4 * t + 1], raw->tets[4 * t + 1]);
+  for (size_t t = 0; t < mesh->element_count; t++) {
+    assert_true(vsc_mesh_element_volume(mesh, t) > 0);
+    sum += vsc_mesh_element_volume(mesh, t);
+    assert_int_equal(mesh->corners[4 * t], raw->corners[4 * t]);
+    assert_int_equal(mesh->corners[4 * t + 1], raw->corners[4 * t + 1]);
   }
   assert_close(sum, 1.5, 1e-14, 0);
   vsc_mesh_free(raw);
@@ -120,7 +120,7 @@ static vsc_mesh *sparse_mesh(void)
   const uint32_t tet[4] = {3, 1, 6, 4}, triangles[9] = {1, 3, 2, 3, 1, 6, 0, 1, 3};
   for (int i = 0; i < 4; i++) memcpy(mesh->nodes + 3 * tet[i], CORNERS + 3 * i, 3 * sizeof(double));
   mesh->nodes[3 * 5] = NAN;
-  memcpy(mesh->tets, tet, sizeof tet);
+  memcpy(mesh->corners, tet, sizeof tet);
   memcpy(mesh->triangles, triangles, sizeof triangles);
   vsc_array *node = vsc_arrays_add(&mesh->node_data, "n", 2, 7);
   for (int i = 0; i < 14; i++) node->values[i] = i;
@@ -148,11 +148,11 @@ static void unused_nodes_are_dropped_with_their_data(void **state)
   assert_close(mark->values[0], 11, 0, 0);
   for (int i = 0; i < 4; i++) {
     assert_int_equal(mesh->node_source[i], source[i]);
-    assert_int_equal(mesh->tets[i], tet[i]);
+    assert_int_equal(mesh->corners[i], tet[i]);
     assert_close(node->values[2 * i + 1], 2 * source[i] + 1, 0, 0);
     if (i < 3) assert_int_equal(mesh->triangles[i], triangle[i]);
   }
-  assert_close(vsc_mesh_tet_volume(mesh, 0), 1. / 6, 1e-15, 0);
+  assert_close(vsc_mesh_element_volume(mesh, 0), 1. / 6, 1e-15, 0);
   vsc_mesh_free(mesh);
 }
 
@@ -211,7 +211,7 @@ static void box_and_centre(void **state)
     assert_close(high[axis], 2 * n[axis], 0, 0);
   }
   // Kuhn's first tet: (0 0 0) (2 0 0) (2 2 0) (2 2 2)
-  vsc_mesh_tet_centre(mesh, 0, centre);
+  vsc_mesh_element_centre(mesh, 0, centre);
   assert_close(centre[0], 1.5, 0, 1e-15);
   assert_close(centre[1], 1.0, 0, 1e-15);
   assert_close(centre[2], 0.5, 0, 1e-15);

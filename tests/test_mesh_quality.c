@@ -61,14 +61,14 @@ static void the_worst_are_found_in_order(void **state)
   const int n[3] = {3, 3, 3};
   vsc_mesh *mesh = box_mesh(n, 1, NULL);
   for (size_t i = 0; i < mesh->node_count; i++) mesh->nodes[3 * i] *= 1 + 0.05 * (double)i;
-  for (size_t t = 0; t < mesh->tet_count; t++) mesh->tet_source[t] = (uint32_t)(1000 + t);
+  for (size_t t = 0; t < mesh->element_count; t++) mesh->element_source[t] = (uint32_t)(1000 + t);
   vsc_quality_summary summary;
   assert_int_equal(vsc_mesh_quality(mesh, &summary, NULL), VSC_OK);
-  assert_int_equal(summary.tet_count, mesh->tet_count);
+  assert_int_equal(summary.element_count, mesh->element_count);
   assert_int_equal(summary.worst_count, VSC_WORST_TETS);
   double sum = 0, volume = 0, last = 0;
   size_t poor = 0;
-  for (size_t t = 0; t < mesh->tet_count; t++) {
+  for (size_t t = 0; t < mesh->element_count; t++) {
     const vsc_tet_quality quality = vsc_mesh_tet_quality(mesh, t);
     sum += quality.mean_ratio;
     volume += quality.volume;
@@ -78,16 +78,16 @@ static void the_worst_are_found_in_order(void **state)
     assert_true(quality.edge_ratio <= summary.max_edge_ratio);
     assert_true(quality.volume >= summary.min_volume && quality.volume <= summary.max_volume);
   }
-  assert_close(summary.mean_ratio_mean, sum / (double)mesh->tet_count, 1e-13, 0);
+  assert_close(summary.mean_ratio_mean, sum / (double)mesh->element_count, 1e-13, 0);
   assert_close(summary.volume, volume, 1e-13, 0);
   assert_int_equal(summary.poor, poor);
   for (size_t k = 0; k < VSC_WORST_TETS; k++) {
     const size_t tet = summary.worst_tet[k];
     const double ratio = vsc_mesh_tet_quality(mesh, tet).mean_ratio;
     double centre[3];
-    vsc_mesh_tet_centre(mesh, tet, centre);
+    vsc_mesh_element_centre(mesh, tet, centre);
     size_t below = 0;
-    for (size_t t = 0; t < mesh->tet_count; t++)
+    for (size_t t = 0; t < mesh->element_count; t++)
       below += vsc_mesh_tet_quality(mesh, t).mean_ratio < ratio;
     assert_true(below <= k);
     assert_true(ratio >= last);
@@ -116,7 +116,7 @@ static void edges_and_few_tets(void **state)
   assert_close(summary.mean_ratio_p5, summary.worst[0].mean_ratio, 0, 0);
   vsc_alloc_fail_after(0);
   assert_int_equal(vsc_mesh_quality(mesh, &summary, NULL), VSC_SYSTEM);
-  mesh->tet_count = 0;
+  mesh->element_count = 0;
   assert_int_equal(vsc_mesh_quality(mesh, &summary, NULL), VSC_OK);
   assert_int_equal(summary.worst_count, 0);
   vsc_mesh_free(mesh);

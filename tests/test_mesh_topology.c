@@ -30,13 +30,13 @@ static void every_tet_is_listed_at_its_nodes(void **state)
   vsc_topology topology;
   assert_int_equal(vsc_topology_make(mesh, &topology, NULL), VSC_OK);
   assert_int_equal(topology.node_start[0], 0);
-  assert_int_equal(topology.node_start[mesh->node_count], 4 * mesh->tet_count);
+  assert_int_equal(topology.node_start[mesh->node_count], 4 * mesh->element_count);
   for (size_t i = 0; i < mesh->node_count; i++)
     for (size_t k = topology.node_start[i]; k < topology.node_start[i + 1]; k++) {
-      const uint32_t *tet = mesh->tets + 4 * (size_t)topology.node_tets[k];
+      const uint32_t *tet = mesh->corners + 4 * (size_t)topology.node_elements[k];
       assert_true(tet[0] == i || tet[1] == i || tet[2] == i || tet[3] == i);
       if (k > topology.node_start[i])
-        assert_true(topology.node_tets[k] > topology.node_tets[k - 1]);
+        assert_true(topology.node_elements[k] > topology.node_elements[k - 1]);
     }
   vsc_topology_free(&topology);
   vsc_mesh_free(mesh);
@@ -51,12 +51,12 @@ static void neighbours_are_those_of_brute_force(void **state)
   vsc_topology topology;
   assert_int_equal(vsc_topology_make(mesh, &topology, NULL), VSC_OK);
   assert_int_equal(topology.crowded_faces, 0);
-  for (size_t t = 0; t < mesh->tet_count; t++)
+  for (size_t t = 0; t < mesh->element_count; t++)
     for (int i = 0; i < 4; i++) {
-      const uint32_t *tet = mesh->tets + 4 * t;
+      const uint32_t *tet = mesh->corners + 4 * t;
       int32_t expected = -1;
-      for (size_t o = 0; o < mesh->tet_count; o++) {
-        const uint32_t *other = mesh->tets + 4 * o;
+      for (size_t o = 0; o < mesh->element_count; o++) {
+        const uint32_t *other = mesh->corners + 4 * o;
         const int has_corner = other[0] == tet[i] || other[1] == tet[i] || other[2] == tet[i] ||
                                other[3] == tet[i];
         if (o != t && shared_nodes(tet, other) == 3 && !has_corner) expected = (int32_t)o;

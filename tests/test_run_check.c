@@ -147,8 +147,8 @@ static void write_fibres(void)
   enum { SAME, TURNING, HOLES, SLANTED, KINDS };
   vsc_mesh *mesh = block_for_scene();
   double *v[KINDS];
-  for (int k = 0; k < KINDS; k++) v[k] = calloc(3 * mesh->tet_count, sizeof *v[k]);
-  for (size_t t = 0; t < mesh->tet_count; t++) {
+  for (int k = 0; k < KINDS; k++) v[k] = calloc(3 * mesh->element_count, sizeof *v[k]);
+  for (size_t t = 0; t < mesh->element_count; t++) {
     const double angle[KINDS] = {0, (double)t, (double)t, (double)t + M_PI / 4};
     for (int k = 0; k < KINDS; k++) {
       if (k == HOLES && t % 20 == 0) continue;
@@ -159,13 +159,13 @@ static void write_fibres(void)
   const vsc_vtk_array arrays[] = {
       {"x0", 1, vsc_arrays_find(&mesh->node_data, "x0")->values, true, false},
       {"x1", 1, vsc_arrays_find(&mesh->node_data, "x1")->values, true, false},
-      {"region", 1, vsc_arrays_find(&mesh->tet_data, "region")->values, false, true},
+      {"region", 1, vsc_arrays_find(&mesh->element_data, "region")->values, false, true},
       {"same", 3, v[SAME], false, false},
       {"turning", 3, v[TURNING], false, false},
       {"holes", 3, v[HOLES], false, false},
       {"slanted", 3, v[SLANTED], false, false}};
   assert_int_equal(vsc_vtk_write_mesh(in_folder("fibres.vtu"), mesh->node_count, mesh->nodes,
-                                      mesh->tet_count, mesh->tets, 0, NULL, 7, arrays, true, NULL),
+                                      mesh->element_count, mesh->corners, 0, NULL, 7, arrays, true, NULL),
                    VSC_OK);
   for (int k = 0; k < KINDS; k++) free(v[k]);
   vsc_mesh_free(mesh);

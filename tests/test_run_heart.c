@@ -28,7 +28,7 @@ static void the_map_covers_the_heart(void **state)
 {
   (void)state;
   vsc_problem *problem = load_or_skip(NULL, 0);
-  assert_int_equal(problem->mesh->tet_count, 37381);
+  assert_int_equal(problem->mesh->element_count, 37381);
   assert_int_equal(problem->fibers.with_data + problem->fibers.filled, 37381);
   assert_int_equal(problem->fibers.passive, 0);
   // the map holds every direction that a heart has: angles in degrees, not in tenths
@@ -52,14 +52,14 @@ static void the_heart_begins_to_beat(void **state)
   char file[600];
   snprintf(file, sizeof file, "%s/frames/human_heart_00002.vtu", options.directory);
   if (vsc_vtk_read_mesh(file, 1, &frame, &error) != VSC_OK) fail_msg("%s", error.text);
-  const vsc_array *ratio = vsc_arrays_find(&frame->tet_data, "volume_ratio");
-  const vsc_array *stretch = vsc_arrays_find(&frame->tet_data, "stretch_f");
+  const vsc_array *ratio = vsc_arrays_find(&frame->element_data, "volume_ratio");
+  const vsc_array *stretch = vsc_arrays_find(&frame->element_data, "stretch_f");
   assert_non_null(ratio);
   assert_non_null(stretch);
   double mean = 0;
-  for (size_t t = 0; t < frame->tet_count; t++) {
+  for (size_t t = 0; t < frame->element_count; t++) {
     assert_true(ratio->values[t] > 0.5 && ratio->values[t] < 2);
-    mean += stretch->values[t] / (double)frame->tet_count;
+    mean += stretch->values[t] / (double)frame->element_count;
   }
   // 24 ms into the rise of the tension the fibres have begun to shorten
   assert_true(mean > 0.9 && mean < 0.9999);

@@ -92,15 +92,15 @@ static void test_series_and_frames(void **state)
     assert_close(vsc_pvd_time(series, f), 0.002 * (double)f, 1e-12, 0);
     vsc_mesh *frame = read_frame("a", vsc_pvd_frame(series, f));
     assert_int_equal(frame->node_count, 7 * 5 * 5);
-    assert_int_equal(frame->tet_count, 6 * 4 * 4 * 5);
+    assert_int_equal(frame->element_count, 6 * 4 * 4 * 5);
     for (size_t k = 0; k < sizeof always / sizeof always[0]; k++)
-      assert_non_null(vsc_arrays_find(&frame->tet_data, always[k]));
+      assert_non_null(vsc_arrays_find(&frame->element_data, always[k]));
     assert_non_null(vsc_arrays_find(&frame->node_data, "displacement"));
     assert_non_null(vsc_arrays_find(&frame->node_data, "velocity"));
     assert_non_null(vsc_arrays_find(&frame->node_data, "volume_ratio"));
     // the axes that were used are in the first frame
-    assert_true((vsc_arrays_find(&frame->tet_data, "sheet") != NULL) == (f == 0));
-    assert_true((vsc_arrays_find(&frame->tet_data, "normal") != NULL) == (f == 0));
+    assert_true((vsc_arrays_find(&frame->element_data, "sheet") != NULL) == (f == 0));
+    assert_true((vsc_arrays_find(&frame->element_data, "normal") != NULL) == (f == 0));
     vsc_mesh_free(frame);
   }
   vsc_pvd_free(series);
@@ -116,7 +116,7 @@ static void test_chosen_arrays(void **state)
   for (int f = 0; f < 2; f++) {
     vsc_mesh *frame = read_frame("chosen", f ? "frames/block_00001.vtu" : "frames/block_00000.vtu");
     assert_int_equal(frame->node_data.count, 1);
-    assert_int_equal(frame->tet_data.count, f ? 1 : 4);  // the first frame has its axes too
+    assert_int_equal(frame->element_data.count, f ? 1 : 4);  // the first frame has its axes too
     vsc_mesh_free(frame);
   }
 }
@@ -226,8 +226,8 @@ static void test_order_of_the_file(void **state)
         most = fmax(most, fabs(here[3 * p + i]));
       }
     assert_true(last ? most > 0.1 : most == 0);
-    const double *fiber = vsc_arrays_find(&mixed->tet_data, "fiber")->values;
-    const double *other = vsc_arrays_find(&plain->tet_data, "fiber")->values;
+    const double *fiber = vsc_arrays_find(&mixed->element_data, "fiber")->values;
+    const double *other = vsc_arrays_find(&plain->element_data, "fiber")->values;
     for (size_t p = 0; p < 480; p++) assert_same_axis(fiber + 3 * p, other + 3 * tets[p]);
     vsc_mesh_free(plain);
     vsc_mesh_free(mixed);
@@ -242,10 +242,10 @@ static void test_fibres_of_the_first_frame(void **state)
   (void)state;
   vsc_mesh *file = NULL, *frame = read_frame("mixed", "frames/block_00000.vtu");
   assert_int_equal(vsc_vtk_read_mesh(in_folder("mixed.vtu"), 1, &file, NULL), VSC_OK);
-  const double *given = vsc_arrays_find(&file->tet_data, "direction")->values;
-  const double *f = vsc_arrays_find(&frame->tet_data, "fiber")->values;
-  const double *s = vsc_arrays_find(&frame->tet_data, "sheet")->values;
-  const double *n = vsc_arrays_find(&frame->tet_data, "normal")->values;
+  const double *given = vsc_arrays_find(&file->element_data, "direction")->values;
+  const double *f = vsc_arrays_find(&frame->element_data, "fiber")->values;
+  const double *s = vsc_arrays_find(&frame->element_data, "sheet")->values;
+  const double *n = vsc_arrays_find(&frame->element_data, "normal")->values;
   for (size_t t = 0; t < 3 * 480; t += 3) {
     const double length =
         sqrt(given[t] * given[t] + given[t + 1] * given[t + 1] + given[t + 2] * given[t + 2]);

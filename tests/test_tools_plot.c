@@ -63,8 +63,8 @@ static vsc_mesh *make_cup(void)
   double *nodes;
   uint32_t *tets;
   vsc_mesh *mesh = NULL;
-  const size_t node_count = ROUND * (DOWN + 1) * (THICK + 1), tet_count = 6 * ROUND * DOWN * THICK;
-  assert_true(VSC_NEW(nodes, 3 * node_count) && VSC_NEW(tets, 4 * tet_count));
+  const size_t node_count = ROUND * (DOWN + 1) * (THICK + 1), element_count = 6 * ROUND * DOWN * THICK;
+  assert_true(VSC_NEW(nodes, 3 * node_count) && VSC_NEW(tets, 4 * element_count));
   for (int i = 0; i < ROUND; i++)
     for (int j = 0; j <= DOWN; j++)
       for (int k = 0; k <= THICK; k++) {
@@ -85,7 +85,7 @@ static vsc_mesh *make_cup(void)
             tets[4 * t + (size_t)c] =
                 node_at(i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2));
           }
-  assert_int_equal(vsc_mesh_from_arrays(node_count, nodes, tet_count, tets, &mesh, NULL), VSC_OK);
+  assert_int_equal(vsc_mesh_from_arrays(node_count, nodes, element_count, tets, &mesh, NULL), VSC_OK);
   vsc_free(nodes);
   vsc_free(tets);
   return mesh;
@@ -95,7 +95,7 @@ static vsc_mesh *make_cup(void)
 static void write_frame(const vsc_mesh *mesh, const char *file, double share)
 {
   double *displacement, *tension;
-  assert_true(VSC_NEW(displacement, 3 * mesh->node_count) && VSC_NEW(tension, mesh->tet_count));
+  assert_true(VSC_NEW(displacement, 3 * mesh->node_count) && VSC_NEW(tension, mesh->element_count));
   for (size_t i = 0; i < mesh->node_count; i++) {
     const double *x = mesh->nodes + 3 * i;
     const double height = 9 - x[2], turn = -share * 0.005 * height;
@@ -105,15 +105,15 @@ static void write_frame(const vsc_mesh *mesh, const char *file, double share)
     displacement[3 * i + 1] = smaller * sin(angle) - x[1];
     displacement[3 * i + 2] = share * 0.14 * height;
   }
-  for (size_t t = 0; t < mesh->tet_count; t++) {
+  for (size_t t = 0; t < mesh->element_count; t++) {
     double centre[3];
-    vsc_mesh_tet_centre(mesh, t, centre);
+    vsc_mesh_element_centre(mesh, t, centre);
     tension[t] = share * (60 + 0.4 * centre[2]);
   }
   const vsc_vtk_array arrays[] = {{"displacement", 3, displacement, true, false},
                                   {"active_tension", 1, tension, false, false}};
   assert_int_equal(vsc_vtk_write_mesh(in_folder(file), mesh->node_count, mesh->nodes,
-                                      mesh->tet_count, mesh->tets, 0, NULL, 2, arrays, false, NULL),
+                                      mesh->element_count, mesh->corners, 0, NULL, 2, arrays, false, NULL),
                    VSC_OK);
   vsc_free(displacement);
   vsc_free(tension);

@@ -33,17 +33,17 @@ static void sort_nodes(uint32_t *node, int count)
     }
 }
 
-// All faces of all tets, sorted: 4 tet_count x 3.
+// All faces of all tets, sorted: 4 element_count x 3.
 static uint32_t *sorted_faces(const vsc_mesh *mesh)
 {
-  uint32_t *list = test_malloc(12 * mesh->tet_count * sizeof *list);
-  for (size_t e = 0; e < mesh->tet_count; e++)
+  uint32_t *list = test_malloc(12 * mesh->element_count * sizeof *list);
+  for (size_t e = 0; e < mesh->element_count; e++)
     for (int f = 0; f < 4; f++) {
       uint32_t *face = &list[3 * (4 * e + (size_t)f)];
-      for (int i = 0; i < 3; i++) face[i] = mesh->tets[4 * e + (size_t)faces[f][i]];
+      for (int i = 0; i < 3; i++) face[i] = mesh->corners[4 * e + (size_t)faces[f][i]];
       sort_nodes(face, 3);
     }
-  qsort(list, 4 * mesh->tet_count, 3 * sizeof *list, by_nodes);
+  qsort(list, 4 * mesh->element_count, 3 * sizeof *list, by_nodes);
   return list;
 }
 
@@ -51,7 +51,7 @@ static uint32_t *sorted_faces(const vsc_mesh *mesh)
 // boundary is a sphere: nodes - edges + faces = 2. Returns its number of faces.
 static size_t check_conforming(const vsc_mesh *mesh)
 {
-  const size_t total = 4 * mesh->tet_count;
+  const size_t total = 4 * mesh->element_count;
   uint32_t *list = sorted_faces(mesh), *edges = test_calloc(9 * total, sizeof *edges);
   uint8_t *used = test_calloc(mesh->node_count, 1);
   size_t boundary = 0, nodes = 0;
@@ -86,8 +86,8 @@ static size_t check_conforming(const vsc_mesh *mesh)
 static double volume_of(const vsc_mesh *mesh)
 {
   double volume = 0;
-  for (size_t e = 0; e < mesh->tet_count; e++) {
-    const double part = vsc_mesh_tet_volume(mesh, e);
+  for (size_t e = 0; e < mesh->element_count; e++) {
+    const double part = vsc_mesh_element_volume(mesh, e);
     assert_true(part > 0);
     volume += part;
   }
@@ -98,16 +98,16 @@ static double volume_of(const vsc_mesh *mesh)
 static double worst_quality(const vsc_mesh *mesh)
 {
   double worst = 1;
-  for (size_t e = 0; e < mesh->tet_count; e++) {
+  for (size_t e = 0; e < mesh->element_count; e++) {
     double squares = 0;
     for (int i = 0; i < 4; i++)
       for (int j = i + 1; j < 4; j++) {
         double edge[3];
-        vsc_subtract(&mesh->nodes[3 * (size_t)mesh->tets[4 * e + (size_t)i]],
-                     &mesh->nodes[3 * (size_t)mesh->tets[4 * e + (size_t)j]], edge);
+        vsc_subtract(&mesh->nodes[3 * (size_t)mesh->corners[4 * e + (size_t)i]],
+                     &mesh->nodes[3 * (size_t)mesh->corners[4 * e + (size_t)j]], edge);
         squares += vsc_dot(edge, edge);
       }
-    worst = fmin(worst, 12 * pow(3 * vsc_mesh_tet_volume(mesh, e), 2.0 / 3) / squares);
+    worst = fmin(worst, 12 * pow(3 * vsc_mesh_element_volume(mesh, e), 2.0 / 3) / squares);
   }
   return worst;
 }
@@ -130,7 +130,7 @@ static void ventricle_is_human_sized_and_sound(void **state)
   const vsc_lv_shape lv = vsc_lv_default();
   vsc_mesh *mesh = NULL;
   assert_int_equal(vsc_lv_mesh(&lv, &mesh, NULL), VSC_OK);
-  assert_in_range(mesh->tet_count, 6000, 10000);
+  assert_in_range(mesh->element_count, 6000, 10000);
   check_conforming(mesh);
   assert_in_range(vsc_lv_volume(&lv, 0), 130000, 150000);
   assert_close(volume_of(mesh), wall_volume(&lv), 0.012, 0);
@@ -148,7 +148,7 @@ static void ventricle_is_human_sized_and_sound(void **state)
     lowest = fmin(lowest, x[2]);
   }
   assert_close(lowest, -lv.epi_length, 0, 1e-9);
-  assert_close(vsc_arrays_find(&mesh->tet_data, "region")->values[17], 1, 0, 0);
+  assert_close(vsc_arrays_find(&mesh->element_data, "region")->values[17], 1, 0, 0);
   vsc_mesh_free(mesh);
 }
 
@@ -242,7 +242,7 @@ static void block_fills_its_box(void **state)
       vsc_mesh *mesh = NULL;
       assert_int_equal(vsc_block_mesh(&shape, &mesh, NULL), VSC_OK);
       assert_int_equal(mesh->node_count, 6 * 4 * 5);
-      assert_int_equal(mesh->tet_count, 60 * tets);
+      assert_int_equal(mesh->element_count, 60 * tets);
       assert_close(volume_of(mesh), 210, 1e-13, 0);
       assert_int_equal(check_conforming(mesh), 4 * (5 * 3 + 3 * 4 + 4 * 5));
       const char *names[6] = {"x0", "x1", "y0", "y1", "z0", "z1"};
@@ -372,14 +372,14 @@ static void the_verb_writes_files(void **state)
   assert_int_equal(generate(8, block), 0);
   vsc_mesh *mesh = NULL;
   assert_int_equal(vsc_vtk_read_mesh(file, 1, &mesh, NULL), VSC_OK);
-  assert_int_equal(mesh->tet_count, 144);
+  assert_int_equal(mesh->element_count, 144);
   assert_close(volume_of(mesh), 96, 1e-6, 0);
   assert_non_null(vsc_arrays_find(&mesh->node_data, "y1"));
   vsc_mesh_free(mesh);
   const char *lv[] = {"lv", "--layers=1", "--around", "8", "--along", "4", "-o", file};
   assert_int_equal(generate(8, lv), 0);
   assert_int_equal(vsc_vtk_read_mesh(file, 1, &mesh, NULL), VSC_OK);
-  assert_int_equal(mesh->tet_count, 5 * (4 + 32));
+  assert_int_equal(mesh->element_count, 5 * (4 + 32));
   vsc_mesh_free(mesh);
   vsc_image *image = NULL;
   const char *map[] = {"map", "--spacing", "5", "-o", angles};

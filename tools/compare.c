@@ -126,18 +126,18 @@ static vsc_status add_meshes(comparison *all, const char *file_a, const char *fi
   vsc_mesh *a = NULL, *b = NULL;
   vsc_status status = vsc_vtk_read_mesh(file_a, 1, &a, error);
   if (status == VSC_OK) status = vsc_vtk_read_mesh(file_b, 1, &b, error);
-  if (status == VSC_OK && (a->node_count != b->node_count || a->tet_count != b->tet_count))
+  if (status == VSC_OK && (a->node_count != b->node_count || a->element_count != b->element_count))
     status =
         vsc_fail(error, VSC_INPUT,
                  "%s has %zu points and %zu tets, %s has %zu and %zu: only results on the same "
                  "mesh can be compared",
-                 file_a, a->node_count, a->tet_count, file_b, b->node_count, b->tet_count);
-  if (status == VSC_OK && memcmp(a->tets, b->tets, 4 * a->tet_count * sizeof *a->tets) != 0)
+                 file_a, a->node_count, a->element_count, file_b, b->node_count, b->element_count);
+  if (status == VSC_OK && memcmp(a->corners, b->corners, 4 * a->element_count * sizeof *a->corners) != 0)
     note(all, "tets", "joined to other points or in another order");
   if (status == VSC_OK)
     status = add(all, "(positions)", "points", 3 * a->node_count, a->nodes, b->nodes, error);
   if (status == VSC_OK) status = add_arrays(all, "points", &a->node_data, &b->node_data, error);
-  if (status == VSC_OK) status = add_arrays(all, "tets", &a->tet_data, &b->tet_data, error);
+  if (status == VSC_OK) status = add_arrays(all, "tets", &a->element_data, &b->element_data, error);
   vsc_mesh_free(a);
   vsc_mesh_free(b);
   return status;

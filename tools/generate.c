@@ -150,12 +150,12 @@ static bool read_option(wish *wish, int option, const char *text)
 // Writes a mesh with all its arrays, as integers.
 static vsc_status write_mesh(const char *file, const vsc_mesh *mesh, vsc_error *error)
 {
-  const size_t on_nodes = mesh->node_data.count, count = on_nodes + mesh->tet_data.count;
+  const size_t on_nodes = mesh->node_data.count, count = on_nodes + mesh->element_data.count;
   vsc_vtk_array *arrays;
   if (!VSC_NEW(arrays, count)) return vsc_fail_memory(error, "the mesh's arrays");
   for (size_t a = 0; a < count; a++) {
     const bool node = a < on_nodes;
-    const vsc_array *array = node ? &mesh->node_data.items[a] : &mesh->tet_data.items[a - on_nodes];
+    const vsc_array *array = node ? &mesh->node_data.items[a] : &mesh->element_data.items[a - on_nodes];
     arrays[a] = (vsc_vtk_array){.name = array->name,
                                 .components = array->components,
                                 .values = array->values,
@@ -163,7 +163,7 @@ static vsc_status write_mesh(const char *file, const vsc_mesh *mesh, vsc_error *
                                 .integer = true};
   }
   const vsc_status status =
-      vsc_vtk_write_mesh(file, mesh->node_count, mesh->nodes, mesh->tet_count, mesh->tets,
+      vsc_vtk_write_mesh(file, mesh->node_count, mesh->nodes, mesh->element_count, mesh->corners,
                          mesh->triangle_count, mesh->triangles, count, arrays, false, error);
   vsc_free(arrays);
   return status;
@@ -172,7 +172,7 @@ static vsc_status write_mesh(const char *file, const vsc_mesh *mesh, vsc_error *
 static double mesh_volume(const vsc_mesh *mesh)
 {
   double volume = 0;
-  for (size_t e = 0; e < mesh->tet_count; e++) volume += vsc_mesh_tet_volume(mesh, e);
+  for (size_t e = 0; e < mesh->element_count; e++) volume += vsc_mesh_element_volume(mesh, e);
   return volume;
 }
 
@@ -183,7 +183,7 @@ static vsc_status generate_lv(const wish *wish, const char *file, vsc_error *err
   if (status == VSC_OK) status = write_mesh(file, mesh, error);
   if (status == VSC_OK)
     printf("%s: %zu nodes, %zu tets, wall %.1f ml, cavity %.1f ml\n", file, mesh->node_count,
-           mesh->tet_count, mesh_volume(mesh) / 1000, vsc_lv_volume(&wish->lv, 0) / 1000);
+           mesh->element_count, mesh_volume(mesh) / 1000, vsc_lv_volume(&wish->lv, 0) / 1000);
   vsc_mesh_free(mesh);
   return status;
 }
@@ -209,7 +209,7 @@ static vsc_status generate_block(const wish *wish, const char *file, vsc_error *
   vsc_status status = vsc_block_mesh(&wish->block, &mesh, error);
   if (status == VSC_OK) status = write_mesh(file, mesh, error);
   if (status == VSC_OK)
-    printf("%s: %zu nodes, %zu tets, %g mm3\n", file, mesh->node_count, mesh->tet_count,
+    printf("%s: %zu nodes, %zu tets, %g mm3\n", file, mesh->node_count, mesh->element_count,
            mesh_volume(mesh));
   vsc_mesh_free(mesh);
   return status;

@@ -94,7 +94,7 @@ static void print_mesh(const vsc_mesh *mesh)
   printf("  points                 %zu", report->file_nodes);
   if (report->unused_nodes > 0) printf(", %zu of them on no tet", report->unused_nodes);
   printf("\n  cells                  %zu: %zu tets, %zu triangles", report->file_cells,
-         mesh->tet_count, mesh->triangle_count + report->loose_triangles);
+         mesh->element_count, mesh->triangle_count + report->loose_triangles);
   if (report->ignored_cells > 0)
     printf(", %zu others (%s)", report->ignored_cells, report->ignored_kinds);
   putchar('\n');
@@ -110,9 +110,9 @@ static void print_mesh(const vsc_mesh *mesh)
     printf("  boundary triangles     %zu\n", boundary.count);
     vsc_surface_free(&boundary);
   }
-  if (mesh->tet_count > 0) print_quality(mesh);
+  if (mesh->element_count > 0) print_quality(mesh);
   print_arrays("points", &mesh->node_data);
-  print_arrays("tets", &mesh->tet_data);
+  print_arrays("tets", &mesh->element_data);
 }
 
 static vsc_status info_mesh(const char *file, vsc_error *error)

@@ -24,30 +24,30 @@ static void cut_brick(vsc_mesh *mesh, size_t brick, const uint32_t corner[8], in
 {
   const int(*pattern)[4] = tets == 6 ? six : mirrored ? five_mirrored : five;
   for (int t = 0; t < tets; t++) {
-    uint32_t *tet = &mesh->tets[4 * (brick * (size_t)tets + (size_t)t)];
+    uint32_t *tet = &mesh->corners[4 * (brick * (size_t)tets + (size_t)t)];
     for (int i = 0; i < 4; i++) tet[i] = corner[pattern[t][i]];
   }
 }
 
 static bool add_region(vsc_mesh *mesh)
 {
-  vsc_array *region = vsc_arrays_add(&mesh->tet_data, "region", 1, mesh->tet_count);
+  vsc_array *region = vsc_arrays_add(&mesh->element_data, "region", 1, mesh->element_count);
   if (region == NULL) return false;
-  for (size_t e = 0; e < mesh->tet_count; e++) region->values[e] = 1;
+  for (size_t e = 0; e < mesh->element_count; e++) region->values[e] = 1;
   return true;
 }
 
 static bool all_right_handed(const vsc_mesh *mesh)
 {
-  for (size_t e = 0; e < mesh->tet_count; e++)
-    if (!(vsc_mesh_tet_volume(mesh, e) > 0)) return false;
+  for (size_t e = 0; e < mesh->element_count; e++)
+    if (!(vsc_mesh_element_volume(mesh, e) > 0)) return false;
   return true;
 }
 
 static void set_sources(vsc_mesh *mesh)
 {
   mesh->report.file_nodes = mesh->node_count;
-  mesh->report.file_cells = mesh->tet_count;
+  mesh->report.file_cells = mesh->element_count;
 }
 
 // ---- The left ventricle

@@ -285,6 +285,18 @@ static vsc_status read_whole(vsc_reading *reading, const vsc_row *row, const vsc
   return VSC_OK;
 }
 
+static vsc_status read_whole_int(vsc_reading *reading, const vsc_row *row, const vsc_slot *slot,
+                                 void *field)
+{
+  unsigned long value = 0;
+  const vsc_status status = read_whole(reading, row, slot, &value);
+  if (status != VSC_OK) return status;
+  if (value > INT_MAX)
+    return vsc_reading_fail(reading, "%lu: expected a smaller number such as %s", value, row->text);
+  *(int *)field = (int)value;
+  return VSC_OK;
+}
+
 static vsc_status read_integers(vsc_reading *reading, const vsc_row *row, const vsc_slot *slot,
                                 void *field)
 {
@@ -310,6 +322,12 @@ static void write_whole(FILE *stream, const vsc_row *row, const void *field)
 {
   (void)row;
   fprintf(stream, "%lu", *(const unsigned long *)field);
+}
+
+static void write_whole_int(FILE *stream, const vsc_row *row, const void *field)
+{
+  (void)row;
+  fprintf(stream, "%d", *(const int *)field);
 }
 
 static void write_integers(FILE *stream, const vsc_row *row, const void *field)
@@ -427,6 +445,7 @@ static const struct {
     [VSC_ROW_NAME] = {read_name, write_name},
     [VSC_ROW_PATH] = {read_path, write_path},
     [VSC_ROW_WHOLE] = {read_whole, write_whole},
+    [VSC_ROW_WHOLE_INT] = {read_whole_int, write_whole_int},
     [VSC_ROW_INTEGERS] = {read_integers, write_integers},
     [VSC_ROW_BOOL] = {read_choice, write_choice},
     [VSC_ROW_MARK] = {read_mark, write_mark},

@@ -36,5 +36,12 @@ extern const vsc_group vsc_fiber_group;     // vsc_fiber_def
 extern const vsc_group vsc_material_group;  // an item of materials; vsc_material_def
 extern const vsc_group vsc_support_group;   // an item of supports; vsc_support_def
 extern const vsc_group vsc_pressure_group;  // an item of pressures; vsc_pressure_def
+extern const vsc_group vsc_membrane_group;  // an item of membranes; vsc_membrane_def
+extern const vsc_group vsc_obstacle_group;  // an item of obstacles; vsc_obstacle_def
+extern const vsc_group vsc_law_paper_group;      // vsc_material_def
+extern const vsc_group vsc_law_classical_group;  // vsc_material_def
+extern const vsc_group vsc_axis_group;       // an item of a material's axes; vsc_axis_def
+extern const vsc_group vsc_pair_group;       // an item of a material's pairs; vsc_pair_def
+extern const vsc_group vsc_inclusion_group;  // an item of a material's inclusions; vsc_inclusion_def
 
 #endif

@@ -24,6 +24,8 @@ static const vsc_row time_rows[] = {
      .meaning = "simulated time"},
     {"step", QUANTITY(vsc_definition, step, VSC_TIME), .zero_word = "auto", .text = "auto",
      .meaning = "auto: from the stable step; or a time, refused above it"},
+    {"force", .kind = VSC_ROW_BOOL, AT(vsc_definition, force_step), .text = "false",
+     .meaning = "true: takes that time even above the stable step, and says so"},
     {"safety", NUMBER(vsc_definition, safety), .text = "0.8",
      .meaning = "auto: fraction of the stable step that is taken"},
 };
@@ -62,6 +64,14 @@ static const vsc_word volumes[] = {{"nodal", VSC_VOLUME_NODAL},
                                    {"element", VSC_VOLUME_ELEMENT},
                                    {NULL, 0}};
 
+static const vsc_word mass_kinds[] = {{"lumped", VSC_MASS_LUMPED},
+                                      {"voronoi", VSC_MASS_VORONOI},
+                                      {"equal", VSC_MASS_EQUAL},
+                                      {NULL, 0}};
+static const vsc_word kept_volumes[] = {
+    {"none", VSC_KEEP_NONE}, {"total", VSC_KEEP_TOTAL},     {"region", VSC_KEEP_REGION},
+    {"node", VSC_KEEP_NODE}, {"element", VSC_KEEP_ELEMENT}, {NULL, 0}};
+
 #define SCENE_PARTS(items, counter, group_) \
   PARTS(vsc_scene, definition.items, definition.counter, group_)
 
@@ -73,10 +83,18 @@ static const vsc_row vsc_scene_group_rows[] = {
      .meaning = "sets of nodes, by name"},
     {"fibers", PART(offsetof(vsc_scene, fibers), vsc_fiber_group),
      .meaning = "where the fibre axes come from; absent: no fibres"},
-    {"materials", SCENE_PARTS(materials, material_count, vsc_material_group), .needed = VSC_ALWAYS,
+    {"materials", SCENE_PARTS(materials, material_count, vsc_material_group),
      .meaning = "tissues"},
     {"volume", CHOICE(vsc_scene, definition.volume, volumes), .text = "nodal",
      .meaning = "elements that share a volume ratio: all round a node; or element: each alone"},
+    {"keep_volume", CHOICE(vsc_scene, definition.kept_volume, kept_volumes), .text = "none",
+     .meaning = "to rounding, by multipliers: total, region (each material), node, element"},
+    {"masses", CHOICE(vsc_scene, definition.masses, mass_kinds), .text = "lumped",
+     .meaning = "of the nodes; or voronoi: of what is nearest; equal: all alike"},
+    {"membranes", SCENE_PARTS(membranes, membrane_count, vsc_membrane_group), .commented = true,
+     .meaning = "sheets on surfaces: capsule, valve, cloth"},
+    {"obstacles", SCENE_PARTS(obstacles, obstacle_count, vsc_obstacle_group), .commented = true,
+     .meaning = "rigid things that no node enters"},
     {"supports", SCENE_PARTS(supports, support_count, vsc_support_group),
      .meaning = "what holds the tissue"},
     {"gravity", VECTOR(vsc_scene, definition.gravity, VSC_ACCELERATION),

@@ -19,6 +19,7 @@ typedef enum vsc_row_kind {
   VSC_ROW_NAME,      // a name; char[VSC_NAME]
   VSC_ROW_PATH,      // a file, relative to the scene's folder; char[VSC_PATH]
   VSC_ROW_WHOLE,     // a whole number from 0; unsigned long
+  VSC_ROW_WHOLE_INT, // the same; int
   VSC_ROW_INTEGERS,  // up to `count` whole numbers; int[count] and size_t
   VSC_ROW_BOOL,      // true or false; bool
   VSC_ROW_MARK,      // true only; nothing (the key's presence is its meaning)

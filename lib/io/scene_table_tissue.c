@@ -74,8 +74,8 @@ static const vsc_row active_rows[] = {
     {"tension", QUANTITY(vsc_active_def, tension, VSC_PRESSURE), .allowed = OF_TENSION,
      .needed = BIT(VSC_ACTIVE_TENSION), .text = "60 kPa", .meaning = "along the fibre at the peak"},
     {"stiffness", QUANTITY(vsc_active_def, stiffness, VSC_PRESSURE), .allowed = OF_SPRING,
-     .needed = BIT(VSC_ACTIVE_SPRING), .commented = true, .text = "200 kPa",
-     .meaning = "spring: fibre modulus at the peak"},
+     .commented = true, .text = "200 kPa",
+     .meaning = "spring: fibre modulus at the peak (law: paper has its own)"},
     {"rest_stretch", NUMBER(vsc_active_def, rest_stretch), .allowed = OF_SPRING, .commented = true,
      .text = "0.8", .meaning = "spring: rest stretch at the peak; default 1"},
     {"delay", QUANTITY(vsc_active_def, delay, VSC_TIME), .text = "0 ms",
@@ -120,6 +120,16 @@ static const vsc_row damping_rows[] = {
 };
 GROUP(static, damping, -1);
 
+static const vsc_word laws[] = {{"springs", VSC_LAW_SPRINGS},
+                                {"paper", VSC_LAW_PAPER},
+                                {"classical", VSC_LAW_CLASSICAL},
+                                {NULL, 0}};
+enum {
+  OF_SPRINGS = BIT(VSC_LAW_SPRINGS),
+  OF_PAPER = BIT(VSC_LAW_PAPER),
+  OF_CLASSICAL = BIT(VSC_LAW_CLASSICAL),
+};
+
 static const vsc_row vsc_material_group_rows[] = {
     {"name", NAME(vsc_material_def, name), .needed = VSC_ALWAYS, .text = "myocardium",
      .meaning = "for reports"},
@@ -128,13 +138,29 @@ static const vsc_row vsc_material_group_rows[] = {
      .meaning = "values of mesh.region_array; absent: every element no other material names"},
     {"density", QUANTITY(vsc_material_def, density, VSC_DENSITY), .text = "1.06 g/cm3",
      .meaning = "at rest"},
-    {"axial", PART(0, axial), .needed = VSC_ALWAYS, .meaning = "springs along the frame's axes"},
-    {"angular", PART(0, angular), .needed = VSC_ALWAYS, .meaning = "springs between the axes"},
-    {"damping", PART(0, damping), .meaning = "axial viscosity"},
+    {"law", CHOICE(vsc_material_def, law, laws), .text = "springs",
+     .meaning = "springs; or, to compare: paper (the printed formulas), classical (springs on edges)"},
+    {"axial", PART(0, axial), .allowed = OF_SPRINGS, .needed = OF_SPRINGS,
+     .meaning = "springs along the frame's axes"},
+    {"angular", PART(0, angular), .allowed = OF_SPRINGS, .needed = OF_SPRINGS,
+     .meaning = "springs between the axes"},
+    {"damping", PART(0, damping), .allowed = OF_SPRINGS, .meaning = "axial viscosity"},
     {"volume_modulus", QUANTITY(vsc_material_def, volume_modulus, VSC_PRESSURE),
-     .needed = VSC_ALWAYS, .text = "1 MPa", .meaning = "against a change of volume"},
-    {"stabilization", QUANTITY(vsc_material_def, stabilization, VSC_PRESSURE), .text = "10 kPa",
-     .meaning = "the same of each element, beside volume: nodal; default 0 kPa"},
+     .allowed = OF_SPRINGS, .needed = OF_SPRINGS, .text = "1 MPa",
+     .meaning = "against a change of volume"},
+    {"stabilization", QUANTITY(vsc_material_def, stabilization, VSC_PRESSURE),
+     .allowed = OF_SPRINGS, .text = "10 kPa",
+     .meaning = "the same of each frame, beside a shared volume; default 0 kPa"},
+    {"axes", PARTS(vsc_material_def, axes, axis_count, vsc_axis_group), .allowed = OF_SPRINGS,
+     .commented = true, .meaning = "more axes than f, s, n"},
+    {"pairs", PARTS(vsc_material_def, pairs, pair_count, vsc_pair_group), .allowed = OF_SPRINGS,
+     .commented = true, .meaning = "more angular springs"},
+    {"inclusions", PARTS(vsc_material_def, inclusions, inclusion_count, vsc_inclusion_group),
+     .allowed = OF_SPRINGS, .commented = true, .meaning = "materials that take a part of each element"},
+    {"paper", PART(0, vsc_law_paper_group), .allowed = OF_PAPER, .needed = OF_PAPER,
+     .commented = true, .meaning = "law: paper: constants of every element, whatever its size"},
+    {"classical", PART(0, vsc_law_classical_group), .allowed = OF_CLASSICAL,
+     .needed = OF_CLASSICAL, .commented = true, .meaning = "law: classical: constants of every edge"},
     {"active", PART(offsetof(vsc_material_def, active), active), .meaning = "contraction"},
 };
 
@@ -143,7 +169,21 @@ static void start_material(void *target)
   *(vsc_material_def *)target = vsc_default_material();
 }
 
-GROUP(, vsc_material_group, -1, .size = sizeof(vsc_material_def), .start = start_material);
+// The modulus of an active spring has its place in `active`, unless the law has constants of its own.
+static vsc_status finish_material(vsc_reading *reading, const vsc_slot *slots, void *target)
+{
+  const vsc_material_def *material = target;
+  (void)slots;
+  if (material->law != VSC_LAW_SPRINGS || material->active.kind != VSC_ACTIVE_SPRING ||
+      material->active.stiffness != 0)
+    return VSC_OK;
+  vsc_enter(reading, "active.stiffness");
+  return vsc_reading_fail(reading,
+                          "missing; write such as \"stiffness: 200 kPa\" (fibre modulus at the peak)");
+}
+
+GROUP(, vsc_material_group, offsetof(vsc_material_def, law), .size = sizeof(vsc_material_def), .start = start_material,
+      .finish = finish_material);
 
 // ---- supports and loads
 

@@ -40,6 +40,13 @@ static const quantity quantities[] = {
                           "an acceleration",
                           "9.81 m/s2",
                           {"m/s2", "mm/ms2", "mm/s2", "cm/s2"}},
+    [VSC_STIFFNESS] = {"mN/mm", "a spring's stiffness", "20 N/m", {"N/m", "mN/mm", "N/mm", "kN/m"}},
+    [VSC_DAMPER] = {"mN ms/mm",
+                    "a damper's constant",
+                    "0.01 N s/m",
+                    {"N s/m", "mN ms/mm", "kg/s", "mN s/mm"}},
+    [VSC_FORCE] = {"mN", "a force", "50 mN", {"mN", "N", "kN", "uN"}},
+    [VSC_RIGIDITY] = {"mN mm", "a bending rigidity", "2 mN mm", {"mN mm", "N m", "N mm", "uN m"}},
     [VSC_ANGLE] = {"rad", "an angle", "35 deg", {"deg", "degree", "rad", "radian", "mrad"}},
     [VSC_NUMBER] = {"", "a plain number", "0.8", {NULL}},
 };

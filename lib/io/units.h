@@ -12,6 +12,10 @@ typedef enum vsc_quantity {
   VSC_DENSITY,       // mg/mm^3
   VSC_VISCOSITY,     // kPa ms
   VSC_ACCELERATION,  // mm/ms^2
+  VSC_STIFFNESS,     // mN/mm, of a spring
+  VSC_DAMPER,        // mN ms/mm, of a damper
+  VSC_FORCE,         // mN
+  VSC_RIGIDITY,      // mN mm, of a plate against bending
   VSC_ANGLE,         // radians
   VSC_NUMBER,        // no unit
 } vsc_quantity;

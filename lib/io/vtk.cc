@@ -289,7 +289,7 @@ vsc_status copy_connectivity(const char *file, Array *offsets, Array *points,
                     "%s: the list of its cells contradicts itself: write it again", file);
   const auto *numbers = points->GetPointer(0);
   const vsc_status status = copy_corners(file, start, numbers, mesh->node_count, cells.tets, 4,
-                                         mesh->tets, error);
+                                         mesh->corners, error);
   if (status != VSC_OK) return status;
   return copy_corners(file, start, numbers, mesh->node_count, cells.triangles, 3, mesh->triangles,
                       error);
@@ -340,15 +340,15 @@ vsc_status fill_mesh(const char *file, vtkUnstructuredGrid *grid, const sorted_c
     status = add_arrays(file, grid->GetPointData(), mesh->node_count, nullptr, &mesh->node_data,
                         error);
   if (status == VSC_OK)
-    status = add_arrays(file, grid->GetCellData(), count, &cells.tets, &mesh->tet_data, error);
+    status = add_arrays(file, grid->GetCellData(), count, &cells.tets, &mesh->element_data, error);
   if (status == VSC_OK && !cells.triangles.empty())
     status = add_arrays(file, grid->GetCellData(), count, &cells.triangles, &mesh->triangle_data,
                         error);
   if (status != VSC_OK) return status;
-  std::memcpy(mesh->tet_source, cells.tets.data(), cells.tets.size() * sizeof(uint32_t));
+  std::memcpy(mesh->element_source, cells.tets.data(), cells.tets.size() * sizeof(uint32_t));
   mesh->report.file_nodes = mesh->node_count;
   mesh->report.file_cells = count;
-  mesh->report.ignored_cells = count - mesh->tet_count - mesh->triangle_count;
+  mesh->report.ignored_cells = count - mesh->element_count - mesh->triangle_count;
   std::snprintf(mesh->report.ignored_kinds, sizeof mesh->report.ignored_kinds, "%s",
                 describe_others(cells).c_str());
   return vsc_mesh_clean(mesh, file, error);

@@ -27,7 +27,7 @@ vsc_status vsc_vtk_read_image(const char *file, double unit, vsc_image **image, 
 typedef struct vsc_vtk_array {
   const char *name;
   int components;        // 1 or 3
-  const double *values;  // node_count or tet_count tuples
+  const double *values;  // node_count or element_count tuples
   bool on_nodes;         // else on tets
   bool integer;          // written as Int32
 } vsc_vtk_array;
@@ -38,7 +38,7 @@ typedef struct vsc_vtk_array {
 // when complete. Arrays on tets are 0 on the triangles. VSC_SYSTEM when the file cannot be written;
 // what was there before stays then.
 vsc_status vsc_vtk_write_mesh(const char *file, size_t node_count, const double *nodes,
-                              size_t tet_count, const uint32_t *tets, size_t triangle_count,
+                              size_t element_count, const uint32_t *tets, size_t triangle_count,
                               const uint32_t *triangles, size_t array_count,
                               const vsc_vtk_array *arrays, bool double_precision, vsc_error *error);
 

@@ -72,23 +72,23 @@ vtkSmartPointer<vtkDataArray> make_real(const char *name, int components, size_t
 
 // The tets followed by the triangles, as cells.
 template <typename Array>
-void set_cells(vtkUnstructuredGrid *grid, size_t tet_count, const uint32_t *tets,
+void set_cells(vtkUnstructuredGrid *grid, size_t element_count, const uint32_t *tets,
                size_t triangle_count, const uint32_t *triangles)
 {
-  const size_t corners = 4 * tet_count + 3 * triangle_count;
+  const size_t corners = 4 * element_count + 3 * triangle_count;
   vtkNew<Array> offsets, points;
   vtkNew<vtkUnsignedCharArray> types;
-  offsets->SetNumberOfValues((vtkIdType)(tet_count + triangle_count + 1));
+  offsets->SetNumberOfValues((vtkIdType)(element_count + triangle_count + 1));
   points->SetNumberOfValues((vtkIdType)corners);
-  types->SetNumberOfValues((vtkIdType)(tet_count + triangle_count));
+  types->SetNumberOfValues((vtkIdType)(element_count + triangle_count));
   using number = typename Array::ValueType;
   number *start = offsets->GetPointer(0), *point = points->GetPointer(0);
   start[0] = 0;
-  for (size_t i = 0; i < tet_count + triangle_count; i++) {
-    start[i + 1] = start[i] + (i < tet_count ? 4 : 3);
-    types->SetValue((vtkIdType)i, i < tet_count ? VTK_TETRA : VTK_TRIANGLE);
+  for (size_t i = 0; i < element_count + triangle_count; i++) {
+    start[i + 1] = start[i] + (i < element_count ? 4 : 3);
+    types->SetValue((vtkIdType)i, i < element_count ? VTK_TETRA : VTK_TRIANGLE);
   }
-  for (size_t i = 0; i < 4 * tet_count; i++) *point++ = (number)tets[i];
+  for (size_t i = 0; i < 4 * element_count; i++) *point++ = (number)tets[i];
   for (size_t i = 0; i < 3 * triangle_count; i++) *point++ = (number)triangles[i];
   vtkNew<vtkCellArray> cells;
   cells->SetData(offsets, points);
@@ -138,23 +138,23 @@ vsc_status write_file(const char *file, vtkDataObject *object, vsc_error *error)
                   quiet.said().c_str());
 }
 
-vsc_status write_mesh(const char *file, size_t node_count, const double *nodes, size_t tet_count,
+vsc_status write_mesh(const char *file, size_t node_count, const double *nodes, size_t element_count,
                       const uint32_t *tets, size_t triangle_count, const uint32_t *triangles,
                       size_t array_count, const vsc_vtk_array *arrays, bool double_precision,
                       vsc_error *error)
 {
-  const size_t cell_count = tet_count + triangle_count;
+  const size_t cell_count = element_count + triangle_count;
   vtkNew<vtkUnstructuredGrid> grid;
   vtkNew<vtkPoints> points;
   points->SetData(make_real("Points", 3, node_count, node_count, nodes, double_precision));
   grid->SetPoints(points);
   if (node_count <= INT32_MAX && 4 * cell_count <= INT32_MAX)
-    set_cells<vtkTypeInt32Array>(grid, tet_count, tets, triangle_count, triangles);
+    set_cells<vtkTypeInt32Array>(grid, element_count, tets, triangle_count, triangles);
   else
-    set_cells<vtkTypeInt64Array>(grid, tet_count, tets, triangle_count, triangles);
+    set_cells<vtkTypeInt64Array>(grid, element_count, tets, triangle_count, triangles);
   for (size_t i = 0; i < array_count; i++) {
     const vsc_vtk_array *from = &arrays[i];
-    const size_t given = from->on_nodes ? node_count : tet_count;
+    const size_t given = from->on_nodes ? node_count : element_count;
     const size_t tuples = from->on_nodes ? node_count : cell_count;
     vtkSmartPointer<vtkDataArray> array =
       from->integer
@@ -189,12 +189,12 @@ vsc_status write_image(const char *file, const vsc_image *image, vsc_error *erro
 }  // namespace
 
 vsc_status vsc_vtk_write_mesh(const char *file, size_t node_count, const double *nodes,
-                              size_t tet_count, const uint32_t *tets, size_t triangle_count,
+                              size_t element_count, const uint32_t *tets, size_t triangle_count,
                               const uint32_t *triangles, size_t array_count,
                               const vsc_vtk_array *arrays, bool double_precision, vsc_error *error)
 {
   return guarded(file, error, [&] {
-    return write_mesh(file, node_count, nodes, tet_count, tets, triangle_count, triangles,
+    return write_mesh(file, node_count, nodes, element_count, tets, triangle_count, triangles,
                       array_count, arrays, double_precision, error);
   });
 }

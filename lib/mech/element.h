@@ -37,7 +37,7 @@ static inline double vsc_active_tension(const vsc_model *model, const vsc_materi
                                         size_t slot, double time, double stretch, double *nominal)
 {
   *nominal = 0;
-  if (material->active == VSC_ACTIVE_NONE || model->mesh_tet[slot] == VSC_NO_TET) return 0;
+  if (material->active == VSC_ACTIVE_NONE || model->mesh_element[slot] == VSC_NO_ELEMENT) return 0;
   const double a = vsc_model_activation(model, material, slot, time);
   if (material->active == VSC_ACTIVE_TENSION) {
     *nominal = a * material->tension * stretch;

@@ -80,8 +80,8 @@ static void read_tets(const vsc_model *model, const vsc_state *state, vsc_field 
       const vsc_frame_axes frame = vsc_frame_of(g);
       const vsc_wide J = vsc_pack_ratio(g);
       for (int l = 0; l < VSC_WIDTH; l++) {
-        const size_t slot = VSC_WIDTH * k + l, tet = model->mesh_tet[slot];
-        if (tet == VSC_NO_TET) continue;
+        const size_t slot = VSC_WIDTH * k + l, tet = model->mesh_element[slot];
+        if (tet == VSC_NO_ELEMENT) continue;
         read_slot(model, state, &model->materials[patch->material], &frame, J[l], field, slot,
                   values + components * tet);
       }

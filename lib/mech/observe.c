@@ -95,7 +95,7 @@ static void observe_pack(const observation *o, const vsc_patch *patch, size_t k,
   }
   for (int l = 0; l < VSC_WIDTH; l++) {
     const size_t slot = VSC_WIDTH * k + l;
-    if (model->mesh_tet[slot] == VSC_NO_TET) continue;
+    if (model->mesh_element[slot] == VSC_NO_ELEMENT) continue;
     const double V = pack->V[l], stretch = frame.length[0][l];
     part->axial += axial[l];
     part->angular += angular[l];

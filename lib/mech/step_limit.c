@@ -54,7 +54,7 @@ static double largest(const vsc_model *model, const double *d)
 // A length far below an element and far above the rounding of positions.
 static double probe_length(const vsc_model *model)
 {
-  return 1e-6 * cbrt(model->total_volume / (double)model->tet_count);
+  return 1e-6 * cbrt(model->total_volume / (double)model->element_count);
 }
 
 // mode <- M^-1 (K + 4/dt C) mode by a difference of forces; returns the growth of its norm.
@@ -165,7 +165,7 @@ double vsc_limit_bound(const vsc_model *model, vsc_scratch *scratch, size_t *slo
     const vsc_patch *patch = &model->patches[p];
     const size_t first = VSC_WIDTH * (size_t)patch->first_pack;
     for (size_t k = first; k < first + VSC_WIDTH * (size_t)patch->pack_count; k++) {
-      if (model->mesh_tet[k] == VSC_NO_TET) continue;
+      if (model->mesh_element[k] == VSC_NO_ELEMENT) continue;
       double sum = 0;
       for (int c = 0; c < 4; c++) {
         const uint32_t node =

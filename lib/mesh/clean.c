@@ -40,10 +40,10 @@ static vsc_status check_numbers(const vsc_mesh *mesh, const char *name, vsc_erro
 {
   culprits tets = {0}, triangles = {0};
   char ids[160];
-  for (size_t t = 0; t < mesh->tet_count; t++)
+  for (size_t t = 0; t < mesh->element_count; t++)
     for (int i = 0; i < 4; i++)
-      if (mesh->tets[4 * t + i] >= mesh->node_count) {
-        blame(&tets, mesh->tet_source[t]);
+      if (mesh->corners[4 * t + i] >= mesh->node_count) {
+        blame(&tets, mesh->element_source[t]);
         break;
       }
   if (tets.count > 0)
@@ -67,7 +67,7 @@ static vsc_status check_numbers(const vsc_mesh *mesh, const char *name, vsc_erro
 
 static void mark_used(const vsc_mesh *mesh, uint8_t *used)
 {
-  for (size_t i = 0; i < 4 * mesh->tet_count; i++) used[mesh->tets[i]] = 1;
+  for (size_t i = 0; i < 4 * mesh->element_count; i++) used[mesh->corners[i]] = 1;
 }
 
 static vsc_status check_nodes(const vsc_mesh *mesh, const uint8_t *used, const char *name,
@@ -89,7 +89,7 @@ static vsc_status check_nodes(const vsc_mesh *mesh, const uint8_t *used, const c
 
 static double longest_edge(const vsc_mesh *mesh, size_t tet)
 {
-  const uint32_t *corner = mesh->tets + 4 * tet;
+  const uint32_t *corner = mesh->corners + 4 * tet;
   double longest = 0, edge[3];
   for (int i = 0; i < 4; i++)
     for (int j = i + 1; j < 4; j++) {
@@ -111,14 +111,14 @@ static vsc_status check_tets(const vsc_mesh *mesh, const char *name, vsc_error *
 {
   culprits repeated = {0}, flat = {0};
   char ids[160];
-  for (size_t t = 0; t < mesh->tet_count; t++) {
-    if (repeats_node(mesh->tets + 4 * t)) {
-      blame(&repeated, mesh->tet_source[t]);
+  for (size_t t = 0; t < mesh->element_count; t++) {
+    if (repeats_node(mesh->corners + 4 * t)) {
+      blame(&repeated, mesh->element_source[t]);
       continue;
     }
     const double edge = longest_edge(mesh, t);
-    const double relative = fabs(vsc_mesh_tet_volume(mesh, t)) / edge / edge / edge;
-    if (!(relative >= DEGENERATE)) blame(&flat, mesh->tet_source[t]);
+    const double relative = fabs(vsc_mesh_element_volume(mesh, t)) / edge / edge / edge;
+    if (!(relative >= DEGENERATE)) blame(&flat, mesh->element_source[t]);
   }
   if (repeated.count > 0)
     return vsc_fail(error, VSC_INPUT,
@@ -136,9 +136,9 @@ static vsc_status check_tets(const vsc_mesh *mesh, const char *name, vsc_error *
 static void turn_left_handed(vsc_mesh *mesh)
 {
   mesh->report.turned_tets = 0;
-  for (size_t t = 0; t < mesh->tet_count; t++) {
-    if (vsc_mesh_tet_volume(mesh, t) > 0) continue;
-    uint32_t *corner = mesh->tets + 4 * t;
+  for (size_t t = 0; t < mesh->element_count; t++) {
+    if (vsc_mesh_element_volume(mesh, t) > 0) continue;
+    uint32_t *corner = mesh->corners + 4 * t;
     const uint32_t third = corner[2];
     corner[2] = corner[3];
     corner[3] = third;
@@ -184,7 +184,7 @@ static void drop_unused_nodes(vsc_mesh *mesh, const uint8_t *used, uint32_t *pla
     memmove(mesh->nodes + 3 * kept, mesh->nodes + 3 * i, 3 * sizeof *mesh->nodes);
     mesh->node_source[kept++] = mesh->node_source[i];
   }
-  for (size_t i = 0; i < 4 * mesh->tet_count; i++) mesh->tets[i] = place[mesh->tets[i]];
+  for (size_t i = 0; i < 4 * mesh->element_count; i++) mesh->corners[i] = place[mesh->corners[i]];
   for (size_t i = 0; i < 3 * mesh->triangle_count; i++)
     mesh->triangles[i] = place[mesh->triangles[i]];
   squeeze_arrays(&mesh->node_data, used, kept);
@@ -208,11 +208,11 @@ static vsc_status drop_unused(vsc_mesh *mesh, const uint8_t *used, vsc_error *er
 
 vsc_status vsc_mesh_clean(vsc_mesh *mesh, const char *name, vsc_error *error)
 {
-  if (mesh->tet_count == 0)
+  if (mesh->element_count == 0)
     return vsc_fail(error, VSC_INPUT, "%s: holds no tetrahedra: mesh the organ's volume", name);
   if (mesh->report.file_nodes == 0) mesh->report.file_nodes = mesh->node_count;
   if (mesh->report.file_cells == 0)
-    mesh->report.file_cells = mesh->tet_count + mesh->triangle_count;
+    mesh->report.file_cells = mesh->element_count + mesh->triangle_count;
   vsc_status status = check_numbers(mesh, name, error);
   if (status != VSC_OK) return status;
 

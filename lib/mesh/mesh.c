@@ -9,34 +9,49 @@
 #include "base/mem.h"
 #include "base/vec3.h"
 
-vsc_mesh *vsc_mesh_create(size_t nodes, size_t tets, size_t triangles)
+vsc_mesh *vsc_mesh_create_cells(size_t nodes, size_t elements, const uint8_t *kinds,
+                                size_t triangles)
 {
   vsc_mesh *mesh;
-  if (!VSC_NEW(mesh, 1)) return NULL;
+  if (nodes > UINT32_MAX || elements > INT32_MAX || !VSC_NEW(mesh, 1)) return NULL;
   mesh->node_count = nodes;
-  mesh->tet_count = tets;
+  mesh->element_count = elements;
   mesh->triangle_count = triangles;
-  if (nodes > UINT32_MAX || tets > INT32_MAX || !VSC_NEW(mesh->nodes, 3 * nodes) ||
-      !VSC_NEW(mesh->tets, 4 * tets) || !VSC_NEW(mesh->triangles, 3 * triangles) ||
-      !VSC_NEW(mesh->node_source, nodes) || !VSC_NEW(mesh->tet_source, tets)) {
+  size_t corners = 0;
+  for (size_t e = 0; e < elements; e++) corners += (size_t)vsc_cells[kinds ? kinds[e] : 0].corners;
+  if (!VSC_NEW(mesh->nodes, 3 * nodes) || !VSC_NEW(mesh->kinds, elements) ||
+      !VSC_NEW(mesh->start, elements + 1) || !VSC_NEW(mesh->corners, corners) ||
+      !VSC_NEW(mesh->triangles, 3 * triangles) || !VSC_NEW(mesh->node_source, nodes) ||
+      !VSC_NEW(mesh->element_source, elements)) {
     vsc_mesh_free(mesh);
     return NULL;
   }
   for (size_t i = 0; i < nodes; i++) mesh->node_source[i] = (uint32_t)i;
-  for (size_t i = 0; i < tets; i++) mesh->tet_source[i] = (uint32_t)i;
+  for (size_t e = 0; e < elements; e++) {
+    mesh->kinds[e] = kinds ? kinds[e] : VSC_TET;
+    mesh->start[e + 1] = mesh->start[e] + (size_t)vsc_cells[mesh->kinds[e]].corners;
+    mesh->element_source[e] = (uint32_t)e;
+  }
   return mesh;
+}
+
+vsc_mesh *vsc_mesh_create(size_t nodes, size_t tets, size_t triangles)
+{
+  return vsc_mesh_create_cells(nodes, tets, NULL, triangles);
 }
 
 void vsc_mesh_free(vsc_mesh *mesh)
 {
   if (mesh == NULL) return;
   vsc_free(mesh->nodes);
-  vsc_free(mesh->tets);
+  vsc_free(mesh->kinds);
+  vsc_free(mesh->start);
+  vsc_free(mesh->corners);
   vsc_free(mesh->triangles);
   vsc_free(mesh->node_source);
-  vsc_free(mesh->tet_source);
+  vsc_free(mesh->element_source);
   vsc_arrays_free(&mesh->node_data);
-  vsc_arrays_free(&mesh->tet_data);
+  vsc_arrays_free(&mesh->element_data);
   vsc_arrays_free(&mesh->triangle_data);
   vsc_free(mesh);
 }
@@ -108,13 +123,13 @@ void vsc_arrays_hint(const vsc_arrays *arrays, const char *name, char *text, siz
   if (used < size) snprintf(text + used, size - used, "%s", ending);
 }
 
-vsc_status vsc_mesh_from_arrays(size_t node_count, const double *nodes, size_t tet_count,
+vsc_status vsc_mesh_from_arrays(size_t node_count, const double *nodes, size_t element_count,
                                 const uint32_t *tets, vsc_mesh **mesh, vsc_error *error)
 {
-  vsc_mesh *made = vsc_mesh_create(node_count, tet_count, 0);
+  vsc_mesh *made = vsc_mesh_create(node_count, element_count, 0);
   if (made == NULL) return vsc_fail_memory(error, "the mesh");
   if (node_count > 0) memcpy(made->nodes, nodes, 3 * node_count * sizeof *nodes);
-  if (tet_count > 0) memcpy(made->tets, tets, 4 * tet_count * sizeof *tets);
+  if (element_count > 0) memcpy(made->corners, tets, 4 * element_count * sizeof *tets);
   const vsc_status status = vsc_mesh_clean(made, "mesh arrays", error);
   if (status != VSC_OK) {
     vsc_mesh_free(made);
@@ -124,20 +139,39 @@ vsc_status vsc_mesh_from_arrays(size_t node_count, const double *nodes, size_t t
   return VSC_OK;
 }
 
-double vsc_mesh_tet_volume(const vsc_mesh *mesh, size_t tet)
+// (a x b) . c of three corners relative to the first node of the element
+static double flux(const double *at[VSC_MOST_CORNERS], int i, int j, int k)
 {
-  const uint32_t *corner = mesh->tets + 4 * tet;
-  return vsc_tet_volume(mesh->nodes + 3 * (size_t)corner[0], mesh->nodes + 3 * (size_t)corner[1],
-                        mesh->nodes + 3 * (size_t)corner[2], mesh->nodes + 3 * (size_t)corner[3]);
+  return 6 * vsc_tet_volume(at[0], at[i], at[j], at[k]);
 }
 
-void vsc_mesh_tet_centre(const vsc_mesh *mesh, size_t tet, double centre[3])
+double vsc_mesh_element_volume(const vsc_mesh *mesh, size_t element)
 {
-  const uint32_t *corner = mesh->tets + 4 * tet;
+  const vsc_cell_kind *kind = vsc_mesh_kind(mesh, element);
+  const uint32_t *corner = vsc_mesh_corners(mesh, element);
+  const double *at[VSC_MOST_CORNERS];
+  for (int i = 0; i < kind->corners; i++) at[i] = mesh->nodes + 3 * (size_t)corner[i];
+  if (kind->corners == 4) return vsc_tet_volume(at[0], at[1], at[2], at[3]);
+  double volume = 0;
+  for (int f = 0; f < kind->face_count; f++) {
+    const int *v = kind->faces[f];
+    if (v[3] < 0)
+      volume += flux(at, v[0], v[1], v[2]);
+    else
+      volume += 0.5 * (flux(at, v[0], v[1], v[2]) + flux(at, v[0], v[2], v[3]) +
+                       flux(at, v[0], v[1], v[3]) + flux(at, v[1], v[2], v[3]));
+  }
+  return volume / 6;
+}
+
+void vsc_mesh_element_centre(const vsc_mesh *mesh, size_t element, double centre[3])
+{
+  const uint32_t *corner = vsc_mesh_corners(mesh, element);
+  const int corners = vsc_mesh_kind(mesh, element)->corners;
   for (int axis = 0; axis < 3; axis++) {
     double sum = 0;
-    for (int i = 0; i < 4; i++) sum += mesh->nodes[3 * (size_t)corner[i] + axis];
-    centre[axis] = sum / 4;
+    for (int i = 0; i < corners; i++) sum += mesh->nodes[3 * (size_t)corner[i] + axis];
+    centre[axis] = sum / corners;
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A tetrahedral mesh as it came from a file or from arrays: nodes, tets, surface triangles, and the
-// named arrays that lie on them. Lengths in mm, whatever the file's unit was.
+// A volume mesh as it came from a file or from arrays: nodes, elements (tetrahedra, hexahedra,
+// wedges, pyramids, in any mixture), surface triangles, and the named arrays that lie on them.
+// Lengths in mm, whatever the file's unit was.
 #ifndef VSC_MESH_MESH_H
 #define VSC_MESH_MESH_H
 
@@ -9,12 +10,13 @@
 
 #include "base/status.h"
 #include "base/text.h"
+#include "mesh/cell.h"
 
-// A named array of numbers on nodes, tets or triangles.
+// A named array of numbers on nodes, elements or triangles.
 typedef struct vsc_array {
   char name[VSC_NAME];
   int components;  // numbers per tuple
-  size_t tuples;   // one per node, tet or triangle
+  size_t tuples;   // one per node, element or triangle
   double *values;  // tuples x components, owned
 } vsc_array;
 
@@ -34,25 +36,45 @@ typedef struct vsc_mesh_report {
   size_t loose_triangles;  // triangles dropped because one of their points is on no tet
 } vsc_mesh_report;
 
-// Nodes, tets and triangles are in the order of the file.
+// Nodes, elements and triangles are in the order of the file. A mesh may have no elements but
+// triangles only: a surface.
 typedef struct vsc_mesh {
   size_t node_count;
-  double *nodes;           // node_count x 3, mm
-  size_t tet_count;
-  uint32_t *tets;          // tet_count x 4, right-handed (vsc_tet_volume > 0)
-  size_t triangle_count;   // triangles given by the file; 0 when it has none
-  uint32_t *triangles;     // triangle_count x 3
-  uint32_t *node_source;   // node_count: the point's number in the file
-  uint32_t *tet_source;    // tet_count: the cell's number in the file
+  double *nodes;             // node_count x 3, mm
+  size_t element_count;
+  uint8_t *kinds;            // element_count: a vsc_cell each
+  size_t *start;             // element_count + 1: element e has corners[start[e] .. start[e + 1] - 1]
+  uint32_t *corners;         // start[element_count] nodes, right-handed (mesh/cell.h). When all are
+                             // tets: element_count x 4
+  size_t triangle_count;     // triangles given by the file; 0 when it has none
+  uint32_t *triangles;       // triangle_count x 3
+  uint32_t *node_source;     // node_count: the point's number in the file
+  uint32_t *element_source;  // element_count: the cell's number in the file
   vsc_arrays node_data;
-  vsc_arrays tet_data;
+  vsc_arrays element_data;
   vsc_arrays triangle_data;
   vsc_mesh_report report;
 } vsc_mesh;
 
-// A mesh with room for the given counts, all zero, sources counting up; NULL when memory is short
-// (2^32 nodes or 2^31 tets are always too many).
+// A mesh of tets with room for the given counts, all zero, sources counting up; NULL when memory is
+// short (2^32 nodes or 2^31 tets are always too many).
 vsc_mesh *vsc_mesh_create(size_t nodes, size_t tets, size_t triangles);
+
+// The same with elements of the given kinds (element_count of them, a vsc_cell each; copied).
+vsc_mesh *vsc_mesh_create_cells(size_t nodes, size_t elements, const uint8_t *kinds,
+                                size_t triangles);
+
+// The corners of element `element`, as many as its kind has.
+static inline const uint32_t *vsc_mesh_corners(const vsc_mesh *mesh, size_t element)
+{
+  return mesh->corners + mesh->start[element];
+}
+
+// The facts of its kind.
+static inline const vsc_cell_kind *vsc_mesh_kind(const vsc_mesh *mesh, size_t element)
+{
+  return &vsc_cells[mesh->kinds[element]];
+}
 
 // Releases a mesh and its arrays; NULL is fine.
 void vsc_mesh_free(vsc_mesh *mesh);
@@ -79,16 +101,17 @@ void vsc_arrays_hint(const vsc_arrays *arrays, const char *name, char *text, siz
 // message. After a failure the mesh is good for vsc_mesh_free only.
 vsc_status vsc_mesh_clean(vsc_mesh *mesh, const char *name, vsc_error *error);
 
-// A clean mesh from a caller's arrays: nodes (node_count x 3, mm), tets (tet_count x 4). Both are
+// A clean mesh from a caller's arrays: nodes (node_count x 3, mm), tets (element_count x 4). Both are
 // copied. On success *mesh is owned by the caller.
-vsc_status vsc_mesh_from_arrays(size_t node_count, const double *nodes, size_t tet_count,
+vsc_status vsc_mesh_from_arrays(size_t node_count, const double *nodes, size_t element_count,
                                 const uint32_t *tets, vsc_mesh **mesh, vsc_error *error);
 
-// The volume of tet `tet`, mm^3.
-double vsc_mesh_tet_volume(const vsc_mesh *mesh, size_t tet);
+// The volume of an element, mm^3, exact for straight edges: the flux through its faces, each
+// four-cornered face being the mean of its two pairs of triangles.
+double vsc_mesh_element_volume(const vsc_mesh *mesh, size_t element);
 
-// The mean of the four nodes of tet `tet`, mm.
-void vsc_mesh_tet_centre(const vsc_mesh *mesh, size_t tet, double centre[3]);
+// The mean of an element's corners, mm.
+void vsc_mesh_element_centre(const vsc_mesh *mesh, size_t element, double centre[3]);
 
 // The smallest box round all nodes, mm.
 void vsc_mesh_box(const vsc_mesh *mesh, double low[3], double high[3]);

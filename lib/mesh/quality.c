@@ -13,7 +13,7 @@ static const double PERCENTILE = 0.05;
 
 static const double *corner(const vsc_mesh *mesh, size_t tet, int i)
 {
-  return mesh->nodes + 3 * (size_t)mesh->tets[4 * tet + i];
+  return mesh->nodes + 3 * (size_t)mesh->corners[4 * tet + i];
 }
 
 // Squared lengths of the six edges: sum, least and largest.
@@ -59,7 +59,7 @@ static void measure_dihedrals(const vsc_mesh *mesh, size_t tet, vsc_tet_quality 
 
 vsc_tet_quality vsc_mesh_tet_quality(const vsc_mesh *mesh, size_t tet)
 {
-  vsc_tet_quality quality = {.volume = vsc_mesh_tet_volume(mesh, tet)};
+  vsc_tet_quality quality = {.volume = vsc_mesh_element_volume(mesh, tet)};
   double sum, least, largest;
   measure_edges(mesh, tet, &sum, &least, &largest);
   const double root = cbrt(3 * quality.volume);
@@ -84,8 +84,8 @@ static void rank_tet(const vsc_mesh *mesh, size_t tet, const vsc_tet_quality *qu
   summary->worst[place] = *quality;
   summary->worst_tet[place] = tet;
   for (size_t k = place; k < summary->worst_count; k++) {
-    summary->worst_source[k] = mesh->tet_source[summary->worst_tet[k]];
-    vsc_mesh_tet_centre(mesh, summary->worst_tet[k], summary->worst_centre[k]);
+    summary->worst_source[k] = mesh->element_source[summary->worst_tet[k]];
+    vsc_mesh_element_centre(mesh, summary->worst_tet[k], summary->worst_centre[k]);
   }
 }
 
@@ -115,20 +115,20 @@ static int compare_doubles(const void *a, const void *b)
 
 vsc_status vsc_mesh_quality(const vsc_mesh *mesh, vsc_quality_summary *summary, vsc_error *error)
 {
-  *summary = (vsc_quality_summary){.tet_count = mesh->tet_count};
-  if (mesh->tet_count == 0) return VSC_OK;
+  *summary = (vsc_quality_summary){.element_count = mesh->element_count};
+  if (mesh->element_count == 0) return VSC_OK;
   double *ratios;
-  if (!VSC_NEW(ratios, mesh->tet_count)) return vsc_fail_memory(error, "the mesh's quality");
+  if (!VSC_NEW(ratios, mesh->element_count)) return vsc_fail_memory(error, "the mesh's quality");
   summary->min_dihedral = 180;
   summary->shortest_edge = summary->min_volume = INFINITY;
-  for (size_t t = 0; t < mesh->tet_count; t++) {
+  for (size_t t = 0; t < mesh->element_count; t++) {
     const vsc_tet_quality quality = vsc_mesh_tet_quality(mesh, t);
     add_tet(mesh, t, &quality, summary);
     ratios[t] = quality.mean_ratio;
   }
-  summary->mean_ratio_mean /= (double)mesh->tet_count;
-  qsort(ratios, mesh->tet_count, sizeof *ratios, compare_doubles);
-  summary->mean_ratio_p5 = ratios[(size_t)(PERCENTILE * (double)(mesh->tet_count - 1))];
+  summary->mean_ratio_mean /= (double)mesh->element_count;
+  qsort(ratios, mesh->element_count, sizeof *ratios, compare_doubles);
+  summary->mean_ratio_p5 = ratios[(size_t)(PERCENTILE * (double)(mesh->element_count - 1))];
   vsc_free(ratios);
   return VSC_OK;
 }

@@ -22,7 +22,7 @@ typedef struct vsc_tet_quality {
 } vsc_tet_quality;
 
 typedef struct vsc_quality_summary {
-  size_t tet_count;
+  size_t element_count;
   double mean_ratio_mean;   // mean over the tets
   double mean_ratio_p5;     // 5th percentile (nearest rank)
   double min_dihedral;      // extremes over all tets, degrees

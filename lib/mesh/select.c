@@ -29,17 +29,17 @@ vsc_status vsc_boundary(const vsc_mesh *mesh, vsc_surface *boundary, vsc_error *
   if (status != VSC_OK) return status;
 
   size_t count = 0;
-  for (size_t t = 0; t < mesh->tet_count; t++)
+  for (size_t t = 0; t < mesh->element_count; t++)
     for (int i = 0; i < 4; i++) count += topology.neighbours[t][i] < 0;
   if (!VSC_NEW(boundary->triangles, 3 * count)) {
     vsc_topology_free(&topology);
     return vsc_fail_memory(error, "the mesh's boundary");
   }
-  for (size_t t = 0; t < mesh->tet_count; t++)
+  for (size_t t = 0; t < mesh->element_count; t++)
     for (int i = 0; i < 4; i++) {
       if (topology.neighbours[t][i] >= 0) continue;
       uint32_t *triangle = boundary->triangles + 3 * boundary->count++;
-      for (int k = 0; k < 3; k++) triangle[k] = mesh->tets[4 * t + vsc_tet_faces[i][k]];
+      for (int k = 0; k < 3; k++) triangle[k] = mesh->corners[4 * t + vsc_tet_faces[i][k]];
     }
   vsc_topology_free(&topology);
   return VSC_OK;

@@ -11,10 +11,10 @@
 
 typedef struct vsc_topology {
   size_t node_count;
-  size_t tet_count;
-  size_t *node_start;        // node_count + 1: the tets of node i are node_tets[node_start[i] ..]
-  uint32_t *node_tets;       // 4 tet_count, ascending for each node
-  int32_t (*neighbours)[4];  // tet_count: [i] is the tet across the face opposite corner i, -1 on
+  size_t element_count;
+  size_t *node_start;        // node_count + 1: the tets of node i are node_elements[node_start[i] ..]
+  uint32_t *node_elements;       // 4 element_count, ascending for each node
+  int32_t (*neighbours)[4];  // element_count: [i] is the tet across the face opposite corner i, -1 on
                              // the boundary
   size_t crowded_faces;      // faces that three or more tets claim (tets overlap): 0 in a sound
                              // mesh; such a face counts as inside, and each of its tets names the

@@ -27,9 +27,9 @@ static vsc_status assign_materials(const vsc_mesh *mesh, const vsc_definition *d
 {
   const double *regions;
   const vsc_status status =
-      vsc_terms_tet_values(mesh, definition->region_array, "mesh.region_array", &regions, error);
+      vsc_terms_element_values(mesh, definition->region_array, "mesh.region_array", &regions, error);
   if (status != VSC_OK) return status;
-  for (size_t t = 0; t < mesh->tet_count; t++) {
+  for (size_t t = 0; t < mesh->element_count; t++) {
     const double region = regions ? regions[t] : 0;
     const int material = material_of_region(definition, region);
     if (material < 0)
@@ -37,7 +37,7 @@ static vsc_status assign_materials(const vsc_mesh *mesh, const vsc_definition *d
           error, VSC_INPUT,
           "materials: element %u has region %g, which no material names: add the region to a "
           "material's `regions` or give one material without `regions`",
-          mesh->tet_source[t], region);
+          mesh->element_source[t], region);
     material_of[t] = (uint32_t)material;
   }
   return VSC_OK;
@@ -96,7 +96,7 @@ static void count_materials(vsc_model *model)
     vsc_material *material = &model->materials[patch->material];
     for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++)
       for (int l = 0; l < VSC_WIDTH; l++) {
-        if (model->mesh_tet[VSC_WIDTH * k + l] == VSC_NO_TET) continue;
+        if (model->mesh_element[VSC_WIDTH * k + l] == VSC_NO_ELEMENT) continue;
         material->element_count++;
         material->volume += model->packs[k].V[l];
       }
@@ -172,10 +172,10 @@ vsc_status vsc_model_build(const vsc_mesh *mesh, const vsc_axes *axes,
   *model = NULL;
   vsc_status status = vsc_definition_check(definition, error);
   if (status != VSC_OK) return status;
-  if (axes != NULL && axes->count != mesh->tet_count)
+  if (axes != NULL && axes->count != mesh->element_count)
     return vsc_fail(error, VSC_INPUT,
                     "fibers: axes of %zu elements for a mesh of %zu; give one frame per element",
-                    axes->count, mesh->tet_count);
+                    axes->count, mesh->element_count);
   if (axes != NULL && !vsc_axes_valid(axes))
     return vsc_fail(error, VSC_INPUT,
                     "fibers: a frame is not orthonormal and right-handed; make frames with "
@@ -183,7 +183,7 @@ vsc_status vsc_model_build(const vsc_mesh *mesh, const vsc_axes *axes,
   vsc_model *built;
   uint32_t *material_of;
   if (!VSC_NEW(built, 1)) return vsc_fail_memory(error, "the model");
-  if (VSC_NEW(material_of, mesh->tet_count))
+  if (VSC_NEW(material_of, mesh->element_count))
     status = build(mesh, axes, definition, material_of, built, error);
   else
     status = vsc_fail_memory(error, "the model");

@@ -25,25 +25,48 @@ vsc_material_def vsc_default_material(void)
   return material;
 }
 
+vsc_membrane_def vsc_default_membrane(void)
+{
+  return (vsc_membrane_def){.density = 1.06, .direction = {1, 0, 0}};
+}
+
+vsc_obstacle_def vsc_default_obstacle(void)
+{
+  return (vsc_obstacle_def){.curve = vsc_default_curve(VSC_CURVE_CONSTANT)};
+}
+
 vsc_definition vsc_default_definition(void)
 {
   return (vsc_definition){.volume = VSC_VOLUME_NODAL, .safety = 0.8};
 }
 
+static void free_curve(vsc_curve_def *curve)
+{
+  vsc_free(curve->times);
+  vsc_free(curve->values);
+}
+
+static void free_material(vsc_material_def *material)
+{
+  free_curve(&material->active.curve);
+  vsc_free(material->axes);
+  vsc_free(material->pairs);
+  vsc_free(material->inclusions);
+}
+
 void vsc_definition_free(vsc_definition *definition)
 {
-  for (size_t i = 0; i < definition->material_count; i++) {
-    vsc_free(definition->materials[i].active.curve.times);
-    vsc_free(definition->materials[i].active.curve.values);
-  }
-  for (size_t i = 0; i < definition->pressure_count; i++) {
-    vsc_free(definition->pressures[i].curve.times);
-    vsc_free(definition->pressures[i].curve.values);
-  }
+  for (size_t i = 0; i < definition->material_count; i++) free_material(&definition->materials[i]);
+  for (size_t i = 0; i < definition->pressure_count; i++)
+    free_curve(&definition->pressures[i].curve);
+  for (size_t i = 0; i < definition->obstacle_count; i++)
+    free_curve(&definition->obstacles[i].curve);
   vsc_free(definition->materials);
   vsc_free(definition->surfaces);
   vsc_free(definition->sets);
   vsc_free(definition->supports);
   vsc_free(definition->pressures);
+  vsc_free(definition->membranes);
+  vsc_free(definition->obstacles);
   *definition = vsc_default_definition();
 }

@@ -5,6 +5,7 @@
 #ifndef VSC_MODEL_DEFINITION_H
 #define VSC_MODEL_DEFINITION_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "base/status.h"
@@ -57,6 +58,51 @@ typedef struct vsc_active_def {
   double delay_unit;               // ms per unit of delay_array; default 1
 } vsc_active_def;
 
+// How the elements of a material answer to deformation.
+typedef enum vsc_law {
+  VSC_LAW_SPRINGS,    // the frame's springs in energy form, moduli per volume (default)
+  VSC_LAW_PAPER,      // the formulas of Bourguignon & Cani 2000 as printed, constants per element; no
+                      // gradient of an energy: neither energy nor momenta are kept
+  VSC_LAW_CLASSICAL,  // a damped spring on each edge of the mesh, and on the main diagonals of
+                      // hexahedra
+} vsc_law;
+
+// Constants of LAW_PAPER, the same for each element whatever its size (mN/mm = N/m).
+typedef struct vsc_paper_def {
+  double axial[3];        // k_s of the springs along f, s, n, mN/mm
+  double damping[3];      // their k_d, mN ms/mm
+  double angular[3];      // k_s of the angular springs fs, sn, nf, mN
+  double volume;          // k_s against a change of the corners' distances from the barycentre, mN/mm
+  double volume_damping;  // hexahedra: k_d of the springs from the corners to the barycentre, mN ms/mm
+  double active;          // k_s of the fibre spring at activation 1, mN/mm (active kind SPRING)
+} vsc_paper_def;
+
+// Constants of LAW_CLASSICAL, the same for each edge.
+typedef struct vsc_classical_def {
+  double stiffness;  // k_s, mN/mm
+  double damping;    // k_d, mN ms/mm
+} vsc_classical_def;
+
+// An axis beside f, s, n: psi += E (|g_d| - 1)^2 / 2 with g_d = d_f g_f + d_s g_s + d_n g_n.
+typedef struct vsc_axis_def {
+  double direction[3];  // d in f, s, n; any length but 0
+  double modulus;       // E, kPa
+  double damping;       // eta along it, kPa ms
+} vsc_axis_def;
+
+// An angular spring between two axes: psi += G (c - c at rest)^2 / 2, c the cosine between them.
+typedef struct vsc_pair_def {
+  int axes[2];     // 0 f, 1 s, 2 n, 3 the first of `axes`, ...
+  double modulus;  // G, kPa
+} vsc_pair_def;
+
+// A part of each element's volume that is another material: moduli are mixed by volume,
+// E = (1 - sum phi) E_own + sum phi_j E_j (Voigt).
+typedef struct vsc_inclusion_def {
+  char material[VSC_NAME];        // the other material's name
+  char fraction_array[VSC_NAME];  // element array of phi in [0, 1]
+} vsc_inclusion_def;
+
 // A tissue. Springs law (Bourguignon & Cani 2000, energy form) on the frame axes g_f, g_s, g_n with
 // u_a = g_a/|g_a|, c_ab = u_a . u_b:
 //   psi = sum_a E_a (|g_a| - 1)^2 / 2 + sum_{a<b} G_ab c_ab^2 / 2
@@ -69,11 +115,68 @@ typedef struct vsc_material_def {
   double angular[3];      // G_fs, G_sn, G_nf, kPa
   double damping[3];      // axial viscosity eta_f, eta_s, eta_n, kPa ms; default 0
   double volume_modulus;  // K, kPa, of U(J) = K/4 (J^2 - 1 - 2 ln J); default 0
-  double stabilization;   // Ks, kPa: the same energy of each tet beside node-averaged volume
+  double stabilization;   // Ks, kPa: the same energy of each frame beside a shared volume
   vsc_active_def active;
+  vsc_law law;
+  vsc_paper_def paper;          // law PAPER; axial, angular, damping and volume_modulus are not used
+  vsc_classical_def classical;  // law CLASSICAL; likewise
+  size_t axis_count;            // law SPRINGS: axes beside f, s, n
+  vsc_axis_def *axes;           // owned
+  size_t pair_count;            // law SPRINGS: angular springs beside fs, sn, nf
+  vsc_pair_def *pairs;          // owned
+  size_t inclusion_count;
+  vsc_inclusion_def *inclusions;  // owned
 } vsc_material_def;
 
-// Which elements share one volume ratio J and one pressure.
+// A sheet of tissue on a surface (a capsule, a valve, cloth): each triangle has two axes in its
+// plane, a along `direction` as projected into it and b across,
+//   psi = t A (E_a (|g_a|-1)^2/2 + E_b (|g_b|-1)^2/2 + G c_ab^2/2 + K (J-1)^2/2),
+// J the ratio of areas, and each edge between two triangles resists bending.
+typedef struct vsc_membrane_def {
+  char name[VSC_NAME];
+  char surface[VSC_NAME];  // one of the surfaces, "boundary", or "triangles": all that the file has
+  double thickness;        // t, mm
+  double density;          // mg/mm^3; default 1.06
+  double axial[2];         // E_a, E_b, kPa
+  double angular;          // G, kPa
+  double area_modulus;     // K, kPa; default 0
+  double damping[2];       // eta_a, eta_b, kPa ms; default 0
+  double bending;          // flexural rigidity D, uJ = mN mm; default 0: none
+  double direction[3];     // of axis a; default 1 0 0
+} vsc_membrane_def;
+
+// How the mass of an element goes to its nodes.
+typedef enum vsc_mass_kind {
+  VSC_MASS_LUMPED,   // row sums of the consistent mass: a quarter of a tet to each corner (default)
+  VSC_MASS_VORONOI,  // the part of the element that is nearer to this corner than to its others
+  VSC_MASS_EQUAL,    // all nodes alike, the same total
+} vsc_mass_kind;
+
+// Volumes that are kept to rounding by Lagrange multipliers, beside the volume energy.
+typedef enum vsc_kept_volume {
+  VSC_KEEP_NONE,     // default
+  VSC_KEEP_TOTAL,    // of the whole body
+  VSC_KEEP_REGION,   // of each material
+  VSC_KEEP_NODE,     // of the elements round each node, each sharing its volume among its corners
+  VSC_KEEP_ELEMENT,  // of each element
+} vsc_kept_volume;
+
+typedef enum vsc_obstacle_kind { VSC_OBSTACLE_PLANE, VSC_OBSTACLE_SPHERE } vsc_obstacle_kind;
+
+// A rigid thing that no node may enter.
+typedef struct vsc_obstacle_def {
+  vsc_obstacle_kind kind;
+  double point[3];     // PLANE: a point of it; SPHERE: its centre, mm
+  double normal[3];    // PLANE: towards the free side, any length
+  double radius;       // SPHERE, mm
+  double friction;     // Coulomb's coefficient; default 0
+  double motion[3];    // it moves by motion . curve(t), mm; default 0
+  vsc_curve_def curve; // default constant
+  char set[VSC_NAME];  // node set that it stops; empty: all nodes
+} vsc_obstacle_def;
+
+// Which elements share one volume ratio J and one pressure. Hexahedra, wedges and pyramids always
+// share theirs among their own frames.
 typedef enum vsc_volume_kind {
   VSC_VOLUME_NODAL,    // all tets round a node (Bonet & Burton), default
   VSC_VOLUME_ELEMENT,  // each tet alone; locks when K is far above the shear modulus
@@ -103,9 +206,16 @@ typedef struct vsc_definition {
   vsc_support_def *supports;  // owned
   size_t pressure_count;
   vsc_pressure_def *pressures;  // owned
+  size_t membrane_count;
+  vsc_membrane_def *membranes;  // owned
+  size_t obstacle_count;
+  vsc_obstacle_def *obstacles;  // owned
+  vsc_kept_volume kept_volume;
+  vsc_mass_kind masses;
   double gravity[3];            // mm/ms^2; default 0
   double end_time;              // ms
   double step;                  // ms; 0: from the stable step; default 0
+  bool force_step;              // takes `step` even when it is above the stable one; default false
   double safety;                // fraction of the estimated stable step that is taken; default 0.8
 } vsc_definition;
 
@@ -113,6 +223,8 @@ typedef struct vsc_definition {
 vsc_curve_def vsc_default_curve(vsc_curve_kind kind);
 vsc_active_def vsc_default_active(void);
 vsc_material_def vsc_default_material(void);
+vsc_membrane_def vsc_default_membrane(void);
+vsc_obstacle_def vsc_default_obstacle(void);
 vsc_definition vsc_default_definition(void);
 
 // Refuses numbers that mean nothing (negative moduli, no volume modulus, rest stretch outside

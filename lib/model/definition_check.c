@@ -90,10 +90,14 @@ static void check_curve(checker *c, const vsc_curve_def *curve)
          "curve.period", curve->period, "ms", "shorter than the table; give a longer period");
 }
 
-static void check_active(checker *c, size_t item, const vsc_active_def *active)
+static void check_active(checker *c, size_t item, const vsc_active_def *active, vsc_law law)
 {
   enter(c, "materials", item, ".active");
   if (active->kind == VSC_ACTIVE_NONE) return;
+  need(c, law != VSC_LAW_CLASSICAL, "kind", active->kind, "",
+       "law: classical has no fibre that could contract; use springs or paper");
+  need(c, law != VSC_LAW_PAPER || active->kind == VSC_ACTIVE_SPRING, "kind", active->kind, "",
+       "law: paper knows active springs only; use kind: spring");
   if (active->kind == VSC_ACTIVE_SPRING) {
     need_not_negative(c, "stiffness", active->stiffness, "kPa");
     need(c, active->rest_stretch > 0 && active->rest_stretch <= 1, "rest_stretch",
@@ -106,13 +110,37 @@ static void check_active(checker *c, size_t item, const vsc_active_def *active)
   check_curve(c, &active->curve);
 }
 
-static void check_material(checker *c, size_t item, const vsc_material_def *material)
+static void check_more_axes(checker *c, const vsc_material_def *material)
+{
+  char key[64];
+  for (size_t k = 0; k < material->axis_count; k++) {
+    const vsc_axis_def *axis = &material->axes[k];
+    const double *d = axis->direction, length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    snprintf(key, sizeof key, "axes[%zu].direction", k);
+    need(c, length > 1e-6 && isfinite(length), key, length, "long", "give a vector that is not zero");
+    snprintf(key, sizeof key, "axes[%zu].modulus", k);
+    need_not_negative(c, key, axis->modulus, "kPa");
+    snprintf(key, sizeof key, "axes[%zu].damping", k);
+    need_not_negative(c, key, axis->damping, "kPa ms");
+  }
+  for (size_t k = 0; k < material->pair_count; k++) {
+    const vsc_pair_def *pair = &material->pairs[k];
+    const int axes = 3 + (int)material->axis_count;
+    for (int i = 0; i < 2; i++) {
+      snprintf(key, sizeof key, "pairs[%zu].%s", k, i == 0 ? "first" : "second");
+      need(c, pair->axes[i] >= 0 && pair->axes[i] < axes && pair->axes[0] != pair->axes[1], key,
+           pair->axes[i], "", "name two different axes: 0 f, 1 s, 2 n, 3 the first of axes, ...");
+    }
+    snprintf(key, sizeof key, "pairs[%zu].modulus", k);
+    need_not_negative(c, key, pair->modulus, "kPa");
+  }
+}
+
+static void check_springs(checker *c, const vsc_material_def *material)
 {
   static const char *const axial[] = {"axial.f", "axial.s", "axial.n"};
   static const char *const angular[] = {"angular.fs", "angular.sn", "angular.nf"};
   static const char *const damping[] = {"damping.f", "damping.s", "damping.n"};
-  enter(c, "materials", item, "");
-  need_positive(c, "density", material->density, "mg/mm3", "give a density above zero");
   for (int a = 0; a < 3; a++) {
     need_not_negative(c, axial[a], material->axial[a], "kPa");
     need_not_negative(c, angular[a], material->angular[a], "kPa");
@@ -121,7 +149,36 @@ static void check_material(checker *c, size_t item, const vsc_material_def *mate
   need_positive(c, "volume_modulus", material->volume_modulus, "kPa",
                 "give a modulus above zero, say 10 to 100 times the axial moduli");
   need_not_negative(c, "stabilization", material->stabilization, "kPa");
-  check_active(c, item, &material->active);
+  check_more_axes(c, material);
+}
+
+static void check_paper(checker *c, const vsc_paper_def *paper)
+{
+  static const char *const axial[] = {"paper.axial.f", "paper.axial.s", "paper.axial.n"};
+  static const char *const angular[] = {"paper.angular.fs", "paper.angular.sn", "paper.angular.nf"};
+  static const char *const damping[] = {"paper.damping.f", "paper.damping.s", "paper.damping.n"};
+  for (int a = 0; a < 3; a++) {
+    need_not_negative(c, axial[a], paper->axial[a], "mN/mm");
+    need_not_negative(c, angular[a], paper->angular[a], "mN");
+    need_not_negative(c, damping[a], paper->damping[a], "mN ms/mm");
+  }
+  need_not_negative(c, "paper.volume", paper->volume, "mN/mm");
+  need_not_negative(c, "paper.volume_damping", paper->volume_damping, "mN ms/mm");
+  need_not_negative(c, "paper.active", paper->active, "mN/mm");
+}
+
+static void check_material(checker *c, size_t item, const vsc_material_def *material)
+{
+  enter(c, "materials", item, "");
+  need_positive(c, "density", material->density, "mg/mm3", "give a density above zero");
+  if (material->law == VSC_LAW_SPRINGS) check_springs(c, material);
+  if (material->law == VSC_LAW_PAPER) check_paper(c, &material->paper);
+  if (material->law == VSC_LAW_CLASSICAL) {
+    need_positive(c, "classical.stiffness", material->classical.stiffness, "mN/mm",
+                  "give a stiffness above zero");
+    need_not_negative(c, "classical.damping", material->classical.damping, "mN ms/mm");
+  }
+  check_active(c, item, &material->active, material->law);
 }
 
 static bool has_region(const vsc_material_def *material, int region)
@@ -232,10 +289,46 @@ static void check_loads(checker *c, const vsc_definition *d)
   }
 }
 
+static void check_membrane(checker *c, const vsc_definition *d, size_t item)
+{
+  const vsc_membrane_def *m = &d->membranes[item];
+  enter(c, "membranes", item, "");
+  if (strcmp(m->surface, "triangles") != 0)
+    need_known(c, "surface", m->surface, d->surfaces, d->surface_count, true);
+  need_positive(c, "thickness", m->thickness, "mm", "give a thickness above zero");
+  need_positive(c, "density", m->density, "mg/mm3", "give a density above zero");
+  need_positive(c, "axial.a", m->axial[0], "kPa", "give a modulus above zero");
+  need_positive(c, "axial.b", m->axial[1], "kPa", "give a modulus above zero");
+  need_not_negative(c, "angular", m->angular, "kPa");
+  need_not_negative(c, "area_modulus", m->area_modulus, "kPa");
+  need_not_negative(c, "damping.a", m->damping[0], "kPa ms");
+  need_not_negative(c, "damping.b", m->damping[1], "kPa ms");
+  need_not_negative(c, "bending", m->bending, "mN mm");
+  check_finite3(c, "direction", m->direction, "");
+}
+
+static void check_obstacle(checker *c, const vsc_definition *d, size_t item)
+{
+  const vsc_obstacle_def *o = &d->obstacles[item];
+  enter(c, "obstacles", item, "");
+  check_finite3(c, "point", o->point, "mm");
+  check_finite3(c, "motion", o->motion, "mm");
+  if (o->kind == VSC_OBSTACLE_SPHERE)
+    need_positive(c, "radius", o->radius, "mm", "give a radius above zero");
+  else
+    need(c, o->normal[0] != 0 || o->normal[1] != 0 || o->normal[2] != 0, "normal", 0, "",
+         "give a vector that is not zero");
+  if (o->kind == VSC_OBSTACLE_PLANE) check_finite3(c, "normal", o->normal, "");
+  need_not_negative(c, "friction", o->friction, "");
+  if (o->set[0] != '\0') need_known(c, "set", o->set, d->sets, d->set_count, false);
+  check_curve(c, &o->curve);
+}
+
 vsc_status vsc_definition_check(const vsc_definition *d, vsc_error *error)
 {
   checker c = {.error = error, .status = VSC_OK};
-  need(&c, d->material_count > 0, "materials", 0, "given", "describe at least one material");
+  need(&c, d->material_count > 0 || d->membrane_count > 0, "materials", 0, "given",
+       "describe at least one material, or a membrane");
   for (size_t i = 0; i < d->material_count; i++) check_material(&c, i, &d->materials[i]);
   for (size_t i = 0; i < d->material_count; i++) check_regions(&c, d->materials, i);
   check_selectors(&c, "surfaces", d->surfaces, d->surface_count);
@@ -246,6 +339,8 @@ vsc_status vsc_definition_check(const vsc_definition *d, vsc_error *error)
       need_known(&c, "surface", d->sets[i].array, d->surfaces, d->surface_count, true);
   }
   check_loads(&c, d);
+  for (size_t i = 0; i < d->membrane_count; i++) check_membrane(&c, d, i);
+  for (size_t i = 0; i < d->obstacle_count; i++) check_obstacle(&c, d, i);
   c.where[0] = '\0';
   check_finite3(&c, "gravity", d->gravity, "mm/ms2");
   need_positive(&c, "time.end", d->end_time, "ms", "give a time above zero");

@@ -8,7 +8,7 @@
 static void free_order_and_elements(vsc_model *model)
 {
   vsc_free(model->mesh_node);
-  vsc_free(model->mesh_tet);
+  vsc_free(model->mesh_element);
   vsc_free(model->packs);
   vsc_free(model->patches);
   vsc_free(model->shared);

@@ -16,7 +16,7 @@
 #include "model/definition.h"
 #include "model/stencil.h"
 
-#define VSC_NO_TET UINT32_MAX  // what an empty slot holds
+#define VSC_NO_ELEMENT UINT32_MAX  // what an empty slot holds
 
 // A tissue's numbers, as the force loop needs them.
 typedef struct vsc_material {
@@ -66,12 +66,12 @@ typedef struct vsc_terms {
 } vsc_terms;
 
 typedef struct vsc_model {
-  size_t node_count, tet_count;
+  size_t node_count, element_count;
   size_t pack_count, patch_count;
 
   // order
   uint32_t *mesh_node;  // node_count: the mesh's node of each node
-  uint32_t *mesh_tet;   // pack_count x 4: the mesh's tet of each slot, or VSC_NO_TET
+  uint32_t *mesh_element;   // pack_count x 4: the mesh's tet of each slot, or VSC_NO_ELEMENT
 
   // elements
   vsc_pack *packs;        // pack_count

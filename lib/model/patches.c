@@ -32,10 +32,10 @@ static size_t patch_size(size_t tets)
 
 static vsc_status order_tets(cutter *cut, vsc_error *error)
 {
-  const size_t tets = cut->mesh->tet_count;
+  const size_t tets = cut->mesh->element_count;
   double *centres;
   if (!VSC_NEW(centres, 3 * tets)) return vsc_fail_memory(error, "element centres");
-  for (size_t t = 0; t < tets; t++) vsc_mesh_tet_centre(cut->mesh, t, centres + 3 * t);
+  for (size_t t = 0; t < tets; t++) vsc_mesh_element_centre(cut->mesh, t, centres + 3 * t);
   const vsc_status status = vsc_order_hilbert(tets, centres, cut->material_of, cut->order, error);
   vsc_free(centres);
   return status;
@@ -45,7 +45,7 @@ static vsc_status order_tets(cutter *cut, vsc_error *error)
 // only counts the patches.
 static size_t cut_patches(const cutter *cut, uint32_t *first_tet)
 {
-  const size_t tets = cut->mesh->tet_count, size = patch_size(tets);
+  const size_t tets = cut->mesh->element_count, size = patch_size(tets);
   size_t patches = 0, start = 0;
   for (size_t k = 1; k <= tets; k++) {
     const bool ends = k == tets || k - start == size ||
@@ -63,7 +63,7 @@ static size_t cut_patches(const cutter *cut, uint32_t *first_tet)
 // 4 first_tet[p] ... 4 first_tet[p + 1] - 1.
 static uint32_t corner(const cutter *cut, size_t i)
 {
-  return cut->mesh->tets[4 * (size_t)cut->order[i / 4] + i % 4];
+  return cut->mesh->corners[4 * (size_t)cut->order[i / 4] + i % 4];
 }
 
 static void count_patches_of_nodes(cutter *cut, size_t patches)
@@ -147,7 +147,7 @@ static void fill_slot(const cutter *cut, const vsc_axes *axes, uint32_t tet, siz
   const int lane = (int)(slot % VSC_WIDTH);
   double x[4][3], B[3][4];
   for (int c = 0; c < 4; c++) {
-    const uint32_t node = cut->mesh->tets[4 * tet + c];
+    const uint32_t node = cut->mesh->corners[4 * tet + c];
     memcpy(x[c], cut->mesh->nodes + 3 * node, sizeof x[c]);
     pack->node[c][lane] = (uint16_t)cut->local[node];
   }
@@ -155,14 +155,14 @@ static void fill_slot(const cutter *cut, const vsc_axes *axes, uint32_t tet, siz
   for (int a = 0; a < 3; a++)
     for (int c = 1; c < 4; c++) pack->B[a][c - 1][lane] = B[a][c];
   pack->V[lane] = volume;
-  model->mesh_tet[slot] = tet;
+  model->mesh_element[slot] = tet;
   model->known[slot] = axes ? axes->known[tet] : 0;
   model->total_volume += volume;
 }
 
 static void fill_patches(cutter *cut, const vsc_axes *axes, vsc_model *model)
 {
-  memset(model->mesh_tet, 0xff, VSC_WIDTH * model->pack_count * sizeof *model->mesh_tet);
+  memset(model->mesh_element, 0xff, VSC_WIDTH * model->pack_count * sizeof *model->mesh_element);
   for (size_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];
     for (uint32_t n = 0; n < patch->own_count; n++)
@@ -206,7 +206,7 @@ static vsc_status cut_and_fill(cutter *cut, const vsc_axes *axes, vsc_model *mod
   list_shared(cut, model);
   const size_t slots = VSC_WIDTH * model->pack_count;
   if (!VSC_NEW(model->shared, model->partial_count) || !VSC_NEW(model->packs, model->pack_count) ||
-      !VSC_NEW(model->mesh_tet, slots) || !VSC_NEW(model->known, slots))
+      !VSC_NEW(model->mesh_element, slots) || !VSC_NEW(model->known, slots))
     return vsc_fail_memory(error, "elements");
   list_shared(cut, model);
   status = list_sums(model, error);
@@ -219,9 +219,9 @@ vsc_status vsc_patches_build(const vsc_mesh *mesh, const vsc_axes *axes,
 {
   cutter cut = {.mesh = mesh, .material_of = material_of};
   model->node_count = mesh->node_count;
-  model->tet_count = mesh->tet_count;
+  model->element_count = mesh->element_count;
   vsc_status status = vsc_fail_memory(NULL, "");
-  if (VSC_NEW(cut.order, mesh->tet_count) && VSC_NEW(cut.seen, mesh->node_count) &&
+  if (VSC_NEW(cut.order, mesh->element_count) && VSC_NEW(cut.seen, mesh->node_count) &&
       VSC_NEW(cut.patches_of, mesh->node_count) && VSC_NEW(cut.number, mesh->node_count) &&
       VSC_NEW(cut.local, mesh->node_count))
     status = cut_and_fill(&cut, axes, model, error);

@@ -7,18 +7,18 @@
 
 #include "base/mem.h"
 
-vsc_status vsc_terms_tet_values(const vsc_mesh *mesh, const char *name, const char *key,
+vsc_status vsc_terms_element_values(const vsc_mesh *mesh, const char *name, const char *key,
                                 const double **values, vsc_error *error)
 {
   *values = NULL;
   if (name[0] == '\0') return VSC_OK;
-  const vsc_array *array = vsc_arrays_find(&mesh->tet_data, name);
+  const vsc_array *array = vsc_arrays_find(&mesh->element_data, name);
   if (array != NULL && array->components == 1) {
     *values = array->values;
     return VSC_OK;
   }
   char hint[256];
-  vsc_arrays_hint(&mesh->tet_data, name, hint, sizeof hint);
+  vsc_arrays_hint(&mesh->element_data, name, hint, sizeof hint);
   return vsc_fail(error, VSC_INPUT,
                   "%s: the mesh has no cell array '%s' with one number per element%s", key, name,
                   hint);
@@ -31,25 +31,25 @@ static vsc_status fill_activation(const vsc_mesh *mesh, const vsc_definition *de
   const double *amplitudes, *delays;
   char key[VSC_NAME];
   snprintf(key, sizeof key, "materials[%zu].active.amplitude_array", m);
-  vsc_status status = vsc_terms_tet_values(mesh, active->amplitude_array, key, &amplitudes, error);
+  vsc_status status = vsc_terms_element_values(mesh, active->amplitude_array, key, &amplitudes, error);
   snprintf(key, sizeof key, "materials[%zu].active.delay_array", m);
   if (status == VSC_OK)
-    status = vsc_terms_tet_values(mesh, active->delay_array, key, &delays, error);
+    status = vsc_terms_element_values(mesh, active->delay_array, key, &delays, error);
   if (status != VSC_OK) return status;
   for (size_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];
     if (patch->material != m) continue;
     const size_t first = VSC_WIDTH * (size_t)patch->first_pack;
     for (size_t slot = first; slot < first + VSC_WIDTH * (size_t)patch->pack_count; slot++) {
-      const uint32_t tet = model->mesh_tet[slot];
-      if (tet == VSC_NO_TET) continue;
+      const uint32_t tet = model->mesh_element[slot];
+      if (tet == VSC_NO_ELEMENT) continue;
       const double amplitude = amplitudes ? amplitudes[tet] : 1;
       const double delay = delays ? delays[tet] * active->delay_unit : 0;
       if (!isfinite(amplitude) || !isfinite(delay))
         return vsc_fail(error, VSC_INPUT,
                         "materials[%zu].active: element %u has amplitude %g and delay %g ms; both "
                         "must be finite",
-                        m, mesh->tet_source[tet], amplitude, delay);
+                        m, mesh->element_source[tet], amplitude, delay);
       if (model->amplitude) model->amplitude[slot] = model->known[slot] ? amplitude : 0;
       if (model->delay) model->delay[slot] = delay;
     }
@@ -64,7 +64,7 @@ vsc_status vsc_terms_activation(const vsc_mesh *mesh, const vsc_definition *defi
   const size_t slots = VSC_WIDTH * model->pack_count;
   bool amplitudes = false, delays = false;
   for (size_t slot = 0; slot < slots; slot++)
-    if (model->mesh_tet[slot] != VSC_NO_TET && !model->known[slot]) amplitudes = true;
+    if (model->mesh_element[slot] != VSC_NO_ELEMENT && !model->known[slot]) amplitudes = true;
   for (size_t m = 0; m < definition->material_count; m++) {
     amplitudes |= definition->materials[m].active.amplitude_array[0] != '\0';
     delays |= definition->materials[m].active.delay_array[0] != '\0';

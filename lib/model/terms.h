@@ -9,7 +9,7 @@
 
 // The numbers of the tet array `name`, or NULL for an empty name. A missing array, or one of vectors, is
 // VSC_INPUT with the `key` that names it.
-vsc_status vsc_terms_tet_values(const vsc_mesh *mesh, const char *name, const char *key,
+vsc_status vsc_terms_element_values(const vsc_mesh *mesh, const char *name, const char *key,
                                 const double **values, vsc_error *error);
 
 // amplitude and delay of each slot, where a material names cell arrays or is active in elements

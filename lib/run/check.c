@@ -24,7 +24,7 @@ static void say_mesh(const vsc_problem *problem, FILE *out)
   double low[3], high[3];
   vsc_mesh_box(mesh, low, high);
   fprintf(out, "mesh       %s: %zu nodes, %zu tets, %zu triangles; 1 unit = %g mm\n",
-          problem->scene->mesh_file, mesh->node_count, mesh->tet_count, mesh->triangle_count,
+          problem->scene->mesh_file, mesh->node_count, mesh->element_count, mesh->triangle_count,
           problem->scene->mesh_unit);
   fprintf(out, "size       %.4g x %.4g x %.4g mm from (%.4g, %.4g, %.4g); tissue %.4g ml, %.4g g\n",
           high[0] - low[0], high[1] - low[1], high[2] - low[2], low[0], low[1], low[2],
@@ -165,13 +165,13 @@ static void say_step(const vsc_problem *problem, vsc_state *state, FILE *out)
   size_t slot = 0;
   double centre[3];
   const double bound = vsc_limit_bound(model, &state->scratch, &slot);
-  vsc_mesh_tet_centre(problem->mesh, model->mesh_tet[slot], centre);
+  vsc_mesh_element_centre(problem->mesh, model->mesh_element[slot], centre);
   fprintf(out,
           "step       %.4g ms (%s); stable at rest %.4g ms with safety %g; limited most by element "
           "%u at (%.4g, %.4g, "
           "%.4g), whose own bound is %.4g ms\n",
           dt, model->step > 0 ? "given" : "automatic", state->limit.step, model->safety,
-          problem->mesh->tet_source[model->mesh_tet[slot]], centre[0], centre[1], centre[2],
+          problem->mesh->element_source[model->mesh_element[slot]], centre[0], centre[1], centre[2],
           2 / sqrt(bound));
 }
 
@@ -180,7 +180,7 @@ static double memory_bytes(const vsc_model *model)
   const double per_tet = sizeof(vsc_pack) / 4.0 + 4 + 1 + (model->amplitude ? 8 : 0) +
                          (model->delay ? 8 : 0) + 16 + 72 + 1;
   const double per_node = (32 + 8 + 32 + 16 + 4) + 32 * (5 + 3 + 3 + 1) + 8;
-  return per_tet * (double)model->tet_count + per_node * (double)model->node_count;
+  return per_tet * (double)model->element_count + per_node * (double)model->node_count;
 }
 
 static void say_cost(const vsc_problem *problem, vsc_state *state, FILE *out)
@@ -192,8 +192,8 @@ static void say_cost(const vsc_problem *problem, vsc_state *state, FILE *out)
   const double frames = 1 + model->end_time / output->frame_interval;
   const double number = output->double_precision ? 8 : 4;
   const double frame =
-      0.6 * number * (9.0 * (double)model->node_count + 6.0 * (double)model->tet_count) +
-      6.0 * (double)model->tet_count;
+      0.6 * number * (9.0 * (double)model->node_count + 6.0 * (double)model->element_count) +
+      6.0 * (double)model->element_count;
   fprintf(out,
           "cost       %.4g ms = about %.0f steps: %.3g s of work on %d thread%s (%s); %.3g MB of "
           "memory; %.0f "

@@ -39,7 +39,7 @@ static bool is_wanted(const vsc_output_def *output, const char *name, bool by_de
 static double *region_values(const vsc_problem *problem)
 {
   const vsc_array *array =
-      vsc_arrays_find(&problem->mesh->tet_data, problem->scene->definition.region_array);
+      vsc_arrays_find(&problem->mesh->element_data, problem->scene->definition.region_array);
   return array != NULL && array->components == 1 ? array->values : NULL;
 }
 
@@ -59,7 +59,7 @@ static int read_fields(vsc_job *job, bool first_frame, vsc_vtk_array *arrays)
     const bool on_nodes = vsc_field_on_nodes(field);
     const int components = vsc_field_components(field);
     double *values;
-    if (!VSC_NEW(values, components * (on_nodes ? model->node_count : model->tet_count))) return -1;
+    if (!VSC_NEW(values, components * (on_nodes ? model->node_count : model->element_count))) return -1;
     vsc_read_field(model, job->state, field, values);
     arrays[count++] = (vsc_vtk_array){known_fields[k].name, components, values, on_nodes, false};
   }
@@ -80,7 +80,7 @@ static vsc_status write_frame(vsc_job *job, const char *file, bool first_frame, 
   if (count < 0)
     status = vsc_fail_memory(error, "a frame");
   else
-    status = vsc_vtk_write_mesh(file, mesh->node_count, mesh->nodes, mesh->tet_count, mesh->tets, 0,
+    status = vsc_vtk_write_mesh(file, mesh->node_count, mesh->nodes, mesh->element_count, mesh->corners, 0,
                                 NULL, (size_t)count, arrays, output->double_precision, error);
   for (int k = 0; k < (fields < 0 ? FIELDS : fields); k++) vsc_free((void *)arrays[k].values);
   return status;

@@ -217,7 +217,7 @@ static void fill_result(const vsc_job *job, vsc_run_result *result)
   result->cpu_seconds = vsc_cpu_seconds() - job->start_cpu;
   if (result->cpu_seconds > 0)
     result->updates_per_second =
-        result->steps * (double)job->problem->model->tet_count / result->cpu_seconds;
+        result->steps * (double)job->problem->model->element_count / result->cpu_seconds;
   result->frames = job->pvd ? vsc_pvd_count(job->pvd) : 0;
   vsc_job_path(job, ".pvd", result->series);
 }

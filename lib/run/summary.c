@@ -46,7 +46,7 @@ static void write_body(const vsc_job *job, const vsc_run_result *result, const c
           (unsigned long long)vsc_state_hash(model, job->state));
   write_number(file, "threads", vsc_parallel_threads(), ",");
   write_number(file, "nodes", (double)model->node_count, ",");
-  write_number(file, "elements", (double)model->tet_count, ",");
+  write_number(file, "elements", (double)model->element_count, ",");
   write_number(file, "elements_with_fiber",
                (double)(problem->fibers.with_data + problem->fibers.filled), ",");
   write_number(file, "held_nodes", (double)model->held_count, ",");

@@ -83,9 +83,9 @@ static vsc_status shuffle(vsc_mesh *mesh, vsc_error *error)
     exchange(mesh->nodes + 3 * n, mesh->nodes + 3 * other, 3 * sizeof(double));
   }
   for (size_t n = 0; n < nodes; n++) number[former[n]] = (uint32_t)n;
-  for (size_t i = 0; i < 4 * mesh->tet_count; i++) mesh->tets[i] = number[mesh->tets[i]];
-  for (size_t t = mesh->tet_count - 1; t > 0; t--)
-    exchange(mesh->tets + 4 * t, mesh->tets + 4 * random_below(t + 1), 4 * sizeof(uint32_t));
+  for (size_t i = 0; i < 4 * mesh->element_count; i++) mesh->corners[i] = number[mesh->corners[i]];
+  for (size_t t = mesh->element_count - 1; t > 0; t--)
+    exchange(mesh->corners + 4 * t, mesh->corners + 4 * random_below(t + 1), 4 * sizeof(uint32_t));
   vsc_free(former);
   vsc_free(number);
   return VSC_OK;
@@ -107,7 +107,7 @@ static vsc_status time_steps(const vsc_mesh *mesh, const bench_case *bench, int 
   vsc_status status = vsc_model_build(mesh, NULL, &definition, &model, error);
   if (status == VSC_OK) status = vsc_state_create(model, &state, error);
   if (status == VSC_OK) status = vsc_start(model, state, error);
-  const double steps = 2 + floor(2e7 / (double)mesh->tet_count);
+  const double steps = 2 + floor(2e7 / (double)mesh->element_count);
   *seconds = 1e9;
   for (int k = 0; k < TIMINGS && status == VSC_OK; k++) {
     const double start = threads == 1 ? vsc_cpu_seconds() : vsc_wall_seconds();
@@ -140,8 +140,8 @@ static vsc_status bench_block(size_t wanted, bool shuffled, vsc_error *error)
     status = time_steps(mesh, &cases[k], 1, &one, error);
     if (status == VSC_OK) status = time_steps(mesh, &cases[k], all, &many, error);
     if (status != VSC_OK) break;
-    const double tets = 1e-6 * (double)mesh->tet_count;
-    printf("%9zu tets  %-42s %6.1f on one thread  %6.1f on %d\n", mesh->tet_count, cases[k].name,
+    const double tets = 1e-6 * (double)mesh->element_count;
+    printf("%9zu tets  %-42s %6.1f on one thread  %6.1f on %d\n", mesh->element_count, cases[k].name,
            tets / one, tets / many, all);
     fflush(stdout);
   }

@@ -58,7 +58,7 @@ static void draw_head(const vsc_page *page, cairo_t *cairo)
   write_text(cairo, MARGIN, 46, 27, INK, 0, page->title);
   use_font(cairo, CAIRO_FONT_WEIGHT_NORMAL);
   snprintf(text, sizeof text, "%zu nodes, %zu tetrahedra", page->mesh->node_count,
-           page->mesh->tet_count);
+           page->mesh->element_count);
   if (first_cavity(page->signals, &rest, &least) != NULL && rest > 0) {
     const size_t used = strlen(text);
     snprintf(text + used, sizeof text - used,
@@ -180,7 +180,7 @@ static double largest_tension(const vsc_page *page)
   double largest = 0;
   for (size_t r = 0; signal != NULL && r < page->signals->rows; r++)
     largest = fmax(largest, signal[r]);
-  for (size_t t = 0; page->tension != NULL && t < page->mesh->tet_count; t++)
+  for (size_t t = 0; page->tension != NULL && t < page->mesh->element_count; t++)
     largest = fmax(largest, page->tension[t]);
   return largest;
 }

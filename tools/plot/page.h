@@ -12,7 +12,7 @@ typedef struct vsc_page {
   const vsc_signals *signals;  // not owned
   const vsc_mesh *mesh;        // not owned: the frame to show, its points at rest
   const double *displacement;  // node_count x 3, mm, not owned
-  const double *tension;       // tet_count, kPa, not owned; NULL: none
+  const double *tension;       // element_count, kPa, not owned; NULL: none
   double time;                 // of that frame, s
   bool chosen;                 // the user chose the time; else it is the most contracted one
   vsc_camera camera;

@@ -146,7 +146,7 @@ static vsc_status read_frame(const request *wish, vsc_page *page, vsc_mesh **mes
   status = vsc_vtk_read_mesh(file, 1, mesh, error);
   if (status != VSC_OK) return status;
   const vsc_array *displacement = vsc_arrays_find(&(*mesh)->node_data, "displacement");
-  const vsc_array *tension = vsc_arrays_find(&(*mesh)->tet_data, "active_tension");
+  const vsc_array *tension = vsc_arrays_find(&(*mesh)->element_data, "active_tension");
   if (displacement == NULL || displacement->components != 3)
     return vsc_fail(error, VSC_INPUT, "%s: there is no point array 'displacement' of 3 components",
                     file);

@@ -174,9 +174,9 @@ static vsc_status average_to_nodes(const vsc_mesh *mesh, const double *values, v
 {
   double *count;
   if (!VSC_NEW(count, mesh->node_count)) return vsc_fail_memory(error, "a picture");
-  for (size_t c = 0; c < 4 * mesh->tet_count; c++) {
-    nodes[mesh->tets[c]].value += values[c / 4];
-    count[mesh->tets[c]]++;
+  for (size_t c = 0; c < 4 * mesh->element_count; c++) {
+    nodes[mesh->corners[c]].value += values[c / 4];
+    count[mesh->corners[c]]++;
   }
   for (size_t i = 0; i < mesh->node_count; i++) nodes[i].value /= fmax(count[i], 1);
   vsc_free(count);
@@ -342,7 +342,7 @@ vsc_status vsc_view_draw(const vsc_camera *camera, const vsc_mesh *mesh, const d
     status = draw_boundary(&s, displacement, error);
   }
   if (status == VSC_OK) {
-    for (size_t t = 0; t < mesh->tet_count; t++) draw_cut(&s, mesh->tets + 4 * t);
+    for (size_t t = 0; t < mesh->element_count; t++) draw_cut(&s, mesh->corners + 4 * t);
     vsc_raster_outline(raster, 4);
   }
   vsc_free(s.nodes);
