@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model/definition.h"
 
+#include <string.h>
+
 #include "base/mem.h"
 
 vsc_curve_def vsc_default_curve(vsc_curve_kind kind)
@@ -38,6 +40,14 @@ vsc_obstacle_def vsc_default_obstacle(void)
 vsc_definition vsc_default_definition(void)
 {
   return (vsc_definition){.volume = VSC_VOLUME_NODAL, .safety = 0.8};
+}
+
+bool vsc_is_inclusion(const vsc_definition *definition, const char *material)
+{
+  for (size_t m = 0; m < definition->material_count; m++)
+    for (size_t k = 0; k < definition->materials[m].inclusion_count; k++)
+      if (strcmp(definition->materials[m].inclusions[k].material, material) == 0) return true;
+  return false;
 }
 
 static void free_curve(vsc_curve_def *curve)

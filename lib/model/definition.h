@@ -83,6 +83,8 @@ typedef struct vsc_classical_def {
   double damping;    // k_d, mN ms/mm
 } vsc_classical_def;
 
+enum { VSC_MOST_AXES = 64 };  // beside f, s, n
+
 // An axis beside f, s, n: psi += E (|g_d| - 1)^2 / 2 with g_d = d_f g_f + d_s g_s + d_n g_n.
 typedef struct vsc_axis_def {
   double direction[3];  // d in f, s, n; any length but 0
@@ -231,6 +233,10 @@ vsc_definition vsc_default_definition(void);
 // (0, 1], ...) with the key as the scene writes it (materials[0].axial ...), the value and the
 // remedy.
 vsc_status vsc_definition_check(const vsc_definition *definition, vsc_error *error);
+
+// True when another material, or a vessel, names this one as its inclusion: such a material has no
+// elements of its own unless it lists regions.
+bool vsc_is_inclusion(const vsc_definition *definition, const char *material);
 
 // Releases what the definition owns, not the struct itself.
 void vsc_definition_free(vsc_definition *definition);

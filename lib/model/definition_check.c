@@ -113,6 +113,8 @@ static void check_active(checker *c, size_t item, const vsc_active_def *active, 
 static void check_more_axes(checker *c, const vsc_material_def *material)
 {
   char key[64];
+  need(c, material->axis_count <= VSC_MOST_AXES, "axes", (double)material->axis_count, "of them",
+       "64 are the most");
   for (size_t k = 0; k < material->axis_count; k++) {
     const vsc_axis_def *axis = &material->axes[k];
     const double *d = axis->direction, length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
@@ -189,8 +191,9 @@ static bool has_region(const vsc_material_def *material, int region)
 }
 
 // Each region belongs to one material, and one material at most takes the rest.
-static void check_regions(checker *c, const vsc_material_def *materials, size_t item)
+static void check_regions(checker *c, const vsc_definition *d, size_t item)
 {
+  const vsc_material_def *materials = d->materials;
   const vsc_material_def *material = &materials[item];
   char remedy[VSC_NAME + 80];
   enter(c, "materials", item, "");
@@ -202,7 +205,9 @@ static void check_regions(checker *c, const vsc_material_def *materials, size_t 
            "", remedy);
     snprintf(remedy, sizeof remedy, "material %s takes the unnamed regions already; list regions",
              materials[other].name);
-    need(c, material->region_count > 0 || materials[other].region_count > 0, "regions", 0,
+    const bool included =
+        vsc_is_inclusion(d, material->name) || vsc_is_inclusion(d, materials[other].name);
+    need(c, included || material->region_count > 0 || materials[other].region_count > 0, "regions", 0,
          "regions listed", remedy);
   }
 }
@@ -330,7 +335,7 @@ vsc_status vsc_definition_check(const vsc_definition *d, vsc_error *error)
   need(&c, d->material_count > 0 || d->membrane_count > 0, "materials", 0, "given",
        "describe at least one material, or a membrane");
   for (size_t i = 0; i < d->material_count; i++) check_material(&c, i, &d->materials[i]);
-  for (size_t i = 0; i < d->material_count; i++) check_regions(&c, d->materials, i);
+  for (size_t i = 0; i < d->material_count; i++) check_regions(&c, d, i);
   check_selectors(&c, "surfaces", d->surfaces, d->surface_count);
   check_selectors(&c, "node_sets", d->sets, d->set_count);
   for (size_t i = 0; i < d->set_count; i++) {
