@@ -203,6 +203,14 @@ static vsc_status check_fibres(const vsc_model *model, vsc_error *error)
       "fibers.source (map, arrays, helix, constant, ...)");
 }
 
+// Node groups exist where tets of law SPRINGS do.
+static bool any_shares_volume(const vsc_model *model)
+{
+  for (size_t p = 0; p < model->patch_count; p++)
+    if (vsc_patch_shares_volume(model, &model->patches[p])) return true;
+  return false;
+}
+
 static vsc_status build_elements(const vsc_mesh *mesh, const vsc_axes *axes,
                                  const vsc_definition *definition, const uint32_t *material_of,
                                  uint8_t *mixed, vsc_model *model, vsc_error *error)
@@ -212,6 +220,7 @@ static vsc_status build_elements(const vsc_mesh *mesh, const vsc_axes *axes,
   if (status == VSC_OK) status = vsc_parts_list(mesh, material_of, mixed, model, &parts, error);
   if (status == VSC_OK) status = vsc_patches_build(mesh, axes, &parts, model, error);
   vsc_parts_free(&parts);
+  model->terms.nodal_volume = any_shares_volume(model);
   if (status == VSC_OK) status = vsc_mixture_fill(mesh, definition, model, error);
   return status;
 }

@@ -110,30 +110,52 @@ static void say_fibers(const vsc_problem *problem, FILE *out)
   fputc('\n', out);
 }
 
-static void say_material(const vsc_material *m, FILE *out)
+static void say_law(const vsc_material *m, FILE *out)
 {
-  fprintf(out,
-          "material   %s: %zu elements, %.4g ml; E_f,s,n %g, %g, %g; G_fs,sn,nf %g, %g, %g; K %g; "
-          "own K of a "
-          "tet %g kPa; damping %g, %g, %g kPa ms\n",
-          m->name, m->element_count, 1e-3 * m->volume, m->axial[0], m->axial[1], m->axial[2],
-          m->angular[0], m->angular[1], m->angular[2], m->volume_modulus, m->element_modulus,
-          m->damping[0], m->damping[1], m->damping[2]);
+  const vsc_paper_def *p = &m->paper;
+  if (m->law == VSC_LAW_CLASSICAL)
+    fprintf(out, "classical springs on the edges: k_s %g mN/mm, k_d %g mN ms/mm\n",
+            m->classical.stiffness, m->classical.damping);
+  else if (m->law == VSC_LAW_PAPER)
+    fprintf(out,
+            "the paper's law: axial k_s %g, %g, %g mN/mm; angular %g, %g, %g mN; volume %g mN/mm; "
+            "k_d %g, %g, %g mN ms/mm\n",
+            p->axial[0], p->axial[1], p->axial[2], p->angular[0], p->angular[1], p->angular[2],
+            p->volume, p->damping[0], p->damping[1], p->damping[2]);
+  else
+    fprintf(out,
+            "E_f,s,n %g, %g, %g; G_fs,sn,nf %g, %g, %g; K %g; own K of a frame %g kPa; damping %g, "
+            "%g, %g kPa ms\n",
+            m->axial[0], m->axial[1], m->axial[2], m->angular[0], m->angular[1], m->angular[2],
+            m->volume_modulus, m->element_modulus, m->damping[0], m->damping[1], m->damping[2]);
+}
+
+static void say_material(const vsc_model *model, const vsc_material *m, FILE *out)
+{
+  fprintf(out, "material   %s: %zu elements, %.4g ml; ", m->name, m->element_count, 1e-3 * m->volume);
+  say_law(m, out);
+  for (size_t d = 0; d < m->axis_count; d++) {
+    const vsc_axis *axis = &model->axes[m->first_axis + d];
+    fprintf(out, "axis       %s: %zu along (%.3g, %.3g, %.3g) in f, s, n: %g kPa\n", m->name, d + 3,
+            axis->direction[0], axis->direction[1], axis->direction[2], axis->modulus);
+  }
   if (m->active == VSC_ACTIVE_TENSION)
     fprintf(out, "active     %s: tension up to %g kPa, delay %g ms, period %g ms\n", m->name,
             m->tension * vsc_curve_peak(&m->curve), m->delay, m->curve.period);
   if (m->active == VSC_ACTIVE_SPRING)
     fprintf(out,
-            "active     %s: fibre modulus %g to %g kPa, rest stretch 1 to %g, delay %g ms, period "
-            "%g ms\n",
-            m->name, m->axial[0], m->active_stiffness, m->rest_stretch, m->delay, m->curve.period);
+            "active     %s: fibre %s %g to %g %s, rest stretch 1 to %g, delay %g ms, period %g ms\n",
+            m->name, m->law == VSC_LAW_PAPER ? "k_s" : "modulus",
+            m->law == VSC_LAW_PAPER ? m->paper.axial[0] : m->axial[0],
+            m->law == VSC_LAW_PAPER ? m->paper.active : m->active_stiffness,
+            m->law == VSC_LAW_PAPER ? "mN/mm" : "kPa", m->rest_stretch, m->delay, m->curve.period);
 }
 
 static void say_terms(const vsc_model *model, FILE *out)
 {
-  fprintf(out, "terms      axial and angular springs%s; volume of %s%s%s%s",
+  fprintf(out, "terms      springs%s; volume of %s%s%s%s",
           model->terms.damping ? ", axial damping" : "",
-          model->terms.nodal_volume ? "node groups and of each tet" : "each tet",
+          model->terms.nodal_volume ? "node groups and of each element" : "each element",
           model->terms.active == VSC_ACTIVE_SPRING ? "; active springs" : "",
           model->terms.active == VSC_ACTIVE_TENSION ? "; active tension" : "",
           model->terms.gravity ? "; gravity" : "");
@@ -214,7 +236,7 @@ vsc_status vsc_check(const vsc_problem *problem, FILE *stream, int *warnings, vs
     say_surface(problem, &model->surfaces[s], stream);
   say_supports(problem, stream);
   say_fibers(problem, stream);
-  for (size_t m = 0; m < model->material_count; m++) say_material(&model->materials[m], stream);
+  for (size_t m = 0; m < model->material_count; m++) say_material(model, &model->materials[m], stream);
   say_terms(model, stream);
   vsc_state *state;
   status = vsc_state_create(model, &state, error);

@@ -29,7 +29,17 @@ static double largest(const double three[3])
   return fmax(three[0], fmax(three[1], three[2]));
 }
 
-static void warn_material(writer *w, const vsc_model *model, const vsc_material *material)
+// Law PAPER is there to be compared with: its angular and radial forces derive from no energy.
+static void warn_law(writer *w, const vsc_material *material)
+{
+  if (material->law == VSC_LAW_PAPER)
+    warn(w,
+         "material %s: law: paper keeps neither energy nor momenta, and its stiffness depends on the "
+         "size of the elements; for results use law: springs",
+         material->name);
+}
+
+static void warn_springs(writer *w, const vsc_model *model, const vsc_material *material)
 {
   const double stiff = largest(material->axial),
                shear = fmax(largest(material->angular), stiff / 2);
@@ -52,8 +62,19 @@ static void warn_material(writer *w, const vsc_model *model, const vsc_material 
          "set "
          "stabilization to about the shear modulus (%g kPa)",
          material->name, shear);
-  if (material->element_count == 0)
+}
+
+static void warn_material(writer *w, const vsc_problem *problem, const vsc_material *material)
+{
+  const vsc_definition *definition = &problem->scene->definition;
+  const bool included = vsc_is_inclusion(definition, material->name);
+  if (material->element_count == 0 && !included)
     warn(w, "material %s: no element has its regions", material->name);
+  if (included) return;
+  if (material->law == VSC_LAW_SPRINGS)
+    warn_springs(w, problem->model, material);
+  else
+    warn_law(w, material);
 }
 
 static void warn_fibers(writer *w, const vsc_problem *problem)
@@ -103,7 +124,7 @@ int vsc_check_warnings(const vsc_problem *problem, FILE *stream, const char *pre
 {
   writer w = {stream, prefix, 0};
   for (size_t m = 0; m < problem->model->material_count; m++)
-    warn_material(&w, problem->model, &problem->model->materials[m]);
+    warn_material(&w, problem, &problem->model->materials[m]);
   warn_fibers(&w, problem);
   warn_setting(&w, problem);
   return w.count;
