@@ -158,9 +158,11 @@ static vsc_pack_energies paper_cells(const vsc_model *model, const vsc_patch *pa
     const vsc_wide length = length_of(d);
     radius += length;
     if (tets) continue;
+    // the barycentre is not pulled back, so the power is that of the corner alone
     const vsc_wide change = per_length(vsc_wide_dot(difference(speed[i], drift), d), length);
+    const vsc_wide own = per_length(vsc_wide_dot(speed[i], d), length);
     sum.volume += 0.5 * paper->volume * (length - axes->radius[i]) * (length - axes->radius[i]);
-    sum.dissipation += paper->volume_damping * change * change;
+    sum.dissipation += paper->volume_damping * change * own;
   }
   if (tets) sum.volume += 0.5 * paper->volume * (radius - chords->radius) * (radius - chords->radius);
   return sum;

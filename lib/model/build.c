@@ -81,9 +81,9 @@ static vsc_status copy_material(const vsc_material_def *def, const vsc_definitio
     memcpy(material->angular, def->angular, sizeof material->angular);
     memcpy(material->damping, def->damping, sizeof material->damping);
     material->volume_modulus = def->volume_modulus;
-    material->stabilization = def->stabilization;
-    material->element_modulus =
-        definition->volume == VSC_VOLUME_NODAL ? def->stabilization : def->volume_modulus;
+    const bool nodal = definition->volume == VSC_VOLUME_NODAL;
+    material->stabilization = nodal ? def->stabilization : 0;
+    material->element_modulus = nodal ? def->stabilization : def->volume_modulus;
     copy_axes(def, material, model);
   }
   if (def->law == VSC_LAW_PAPER) material->paper = def->paper;

@@ -79,7 +79,9 @@ typedef struct vsc_material {
   double angular[3];       // G_fs, G_sn, G_nf, kPa
   double damping[3];       // eta_f, eta_s, eta_n, kPa ms
   double volume_modulus;   // K, kPa
-  double stabilization;    // Ks, kPa: of each frame's own U(J) beside a shared volume
+  double stabilization;    // Ks, kPa: of each frame's own U(J) beside the shared volume of its nodes
+                           // or its element; 0 when elements are alone, so that tets and other
+                           // kinds have one bulk modulus
   double element_modulus;  // of a tet's own U(J), kPa: K, or Ks beside node-averaged volume
   vsc_active_kind active;
   double active_stiffness;  // kPa

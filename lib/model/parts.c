@@ -53,6 +53,12 @@ static vsc_status check_laws(const vsc_mesh *mesh, const uint32_t *material_of,
                       "materials: element %u, of material %s, is a %s; law: paper knows tetrahedra "
                       "and hexahedra only: use law: springs",
                       mesh->element_source[e], material->name, vsc_mesh_kind(mesh, e)->name);
+    if (material->law == VSC_LAW_PAPER && mesh->kinds[e] == VSC_HEX && material->paper.volume == 0)
+      return vsc_fail(error, VSC_INPUT,
+                      "materials: %s has law: paper on hexahedra (element %u) without volume "
+                      "springs, which leaves twelve ways to deform without force: give "
+                      "paper.volume, or use law: springs",
+                      material->name, mesh->element_source[e]);
   }
   return VSC_OK;
 }
