@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The masses of the nodes.
+#include "model/masses.h"
+
 #include <string.h>
 
 #include "base/mem.h"
 #include "base/vec3.h"
-#include "model/masses.h"
+#include "mesh/topology.h"
 #include "model/terms.h"
 
 // ---- the part of a tet that is nearest to a point
@@ -74,6 +76,15 @@ static double volume_of(const pieces *list)
   return volume;
 }
 
+// |x - other|^2 - |x - own|^2, which is linear in x.
+static double lead(const double x[3], const double own[3], const double other[3])
+{
+  double to_own[3], to_other[3];
+  vsc_subtract(x, own, to_own);
+  vsc_subtract(x, other, to_other);
+  return vsc_dot(to_other, to_other) - vsc_dot(to_own, to_own);
+}
+
 // The volume of the part of `tet` that is nearer to sites[own] than to the other `count` sites.
 static double nearest_part(const double tet[4][3], const double (*sites)[3], int count, int own,
                            pieces memory[2])
@@ -86,18 +97,30 @@ static double nearest_part(const double tet[4][3], const double (*sites)[3], int
     pieces *from = &memory[now], *to = &memory[1 - now];
     to->count = 0;
     for (size_t k = 0; k < from->count && to->count + 3 <= MOST_PIECES; k++) {
-      double height[4], to_own[3], to_other[3];
-      for (int i = 0; i < 4; i++) {
-        // |x - other|^2 - |x - own|^2 is linear in x
-        vsc_subtract(from->tets[k][i], sites[own], to_own);
-        vsc_subtract(from->tets[k][i], sites[s], to_other);
-        height[i] = vsc_dot(to_other, to_other) - vsc_dot(to_own, to_own);
-      }
-      keep_above(from->tets[k], height, to);
+      double height[4];
+      for (int i = 0; i < 4; i++) height[i] = lead(from->tets[k][i], sites[own], sites[s]);
+      keep_above((const double(*)[3])from->tets[k], height, to);
     }
     now = 1 - now;
   }
   return volume_of(&memory[now]);
+}
+
+// Keeps the sites that are nearest somewhere in `tet` as far as pairs of them tell: one that is
+// farther than another at all four corners is so throughout. kept[k] is the site's former number.
+static int compete(const double tet[4][3], const double (*sites)[3], int count, int *kept)
+{
+  int left = 0;
+  for (int s = 0; s < count; s++) {
+    bool beaten = false;
+    for (int o = 0; o < count && !beaten; o++) {
+      if (o == s) continue;
+      beaten = true;
+      for (int i = 0; i < 4; i++) beaten = beaten && lead(tet[i], sites[s], sites[o]) < 0;
+    }
+    if (!beaten) kept[left++] = s;
+  }
+  return left;
 }
 
 // ---- what an element gives to its corners
@@ -154,90 +177,126 @@ static int cut_element(const vsc_cell_kind *kind, double (*x)[3], double tets[24
   return count;
 }
 
-static void voronoi_volumes(const vsc_mesh *mesh, size_t element, pieces memory[2],
-                            double volumes[VSC_MOST_CORNERS])
+enum { MOST_SITES = VSC_MOST_CORNERS * (1 + VSC_MOST_FACES) };
+
+// Nodes that may be nearest somewhere in an element: its corners and its neighbours'.
+static int list_sites(const vsc_mesh *mesh, const vsc_topology *topology, size_t element,
+                      uint32_t sites[MOST_SITES])
 {
-  double x[VSC_MOST_CORNERS][3], tets[24][4][3], sum = 0;
-  const vsc_cell_kind *kind = vsc_mesh_kind(mesh, element);
-  corners_of(mesh, element, x);
-  const int count = cut_element(kind, x, tets);
-  for (int c = 0; c < kind->corners; c++) {
-    volumes[c] = 0;
-    for (int t = 0; t < count; t++)
-      volumes[c] +=
-          nearest_part(tets[t], (const double(*)[3])x, kind->corners, c, memory);
-    sum += volumes[c];
+  int count = 0;
+  for (int f = -1; f < vsc_mesh_kind(mesh, element)->face_count; f++) {
+    const int32_t other = f < 0 ? (int32_t)element : topology->neighbours[element][f];
+    if (other < 0) continue;
+    const uint32_t *corner = vsc_mesh_corners(mesh, (size_t)other);
+    for (int c = 0; c < vsc_mesh_kind(mesh, (size_t)other)->corners; c++) {
+      int known = 0;
+      while (known < count && sites[known] != corner[c]) known++;
+      if (known == count) sites[count++] = corner[c];
+    }
   }
-  // bilinear faces and the cut differ by little: the element's own volume is shared out
-  const double factor = vsc_mesh_element_volume(mesh, element) / sum;
-  for (int c = 0; c < kind->corners; c++) volumes[c] *= factor;
+  return count;
 }
 
-vsc_status vsc_voronoi_volumes(const vsc_mesh *mesh, double *volumes, vsc_error *error)
+// Adds the masses of one element.
+static void share_element(const vsc_mesh *mesh, const vsc_topology *topology, size_t element,
+                          double density, pieces memory[2], double *masses)
+{
+  double x[VSC_MOST_CORNERS][3], tets[24][4][3], sites[MOST_SITES][3], parts[MOST_SITES] = {0};
+  uint32_t nodes[MOST_SITES];
+  double sum = 0;
+  corners_of(mesh, element, x);
+  const int count = list_sites(mesh, topology, element, nodes);
+  for (int s = 0; s < count; s++) memcpy(sites[s], mesh->nodes + 3 * (size_t)nodes[s], sizeof sites[s]);
+  const int cut = cut_element(vsc_mesh_kind(mesh, element), x, tets);
+  for (int t = 0; t < cut; t++) {
+    int kept[MOST_SITES];
+    double rivals[MOST_SITES][3];
+    const double(*tet)[3] = (const double(*)[3])tets[t];
+    const int left = compete(tet, (const double(*)[3])sites, count, kept);
+    for (int s = 0; s < left; s++) memcpy(rivals[s], sites[kept[s]], sizeof rivals[s]);
+    for (int s = 0; s < left; s++)
+      parts[kept[s]] += nearest_part(tet, (const double(*)[3])rivals, left, s, memory);
+  }
+  for (int s = 0; s < count; s++) sum += parts[s];
+  // bilinear faces and the cut differ by little: the element's own volume is shared out
+  const double factor = density * vsc_mesh_element_volume(mesh, element) / sum;
+  for (int s = 0; s < count; s++) masses[nodes[s]] += factor * parts[s];
+}
+
+vsc_status vsc_voronoi_masses(const vsc_mesh *mesh, const double *density, double *masses,
+                              vsc_error *error)
 {
   pieces memory[2] = {{0}};
+  vsc_topology topology;
+  const vsc_status status = vsc_topology_make(mesh, &topology, error);
+  if (status != VSC_OK) return status;
   const bool room =
       VSC_NEW(memory[0].tets, MOST_PIECES) && VSC_NEW(memory[1].tets, MOST_PIECES);
+  for (size_t n = 0; n < mesh->node_count; n++) masses[n] = 0;
   for (size_t e = 0; room && e < mesh->element_count; e++)
-    voronoi_volumes(mesh, e, memory, volumes + mesh->start[e]);
+    share_element(mesh, &topology, e, density[e], memory, masses);
   vsc_free(memory[0].tets);
   vsc_free(memory[1].tets);
+  vsc_topology_free(&topology);
   return room ? VSC_OK : vsc_fail_memory(error, "Voronoi volumes");
 }
 
 // ---- masses
 
-// Volume of each corner of each element, by the kind of masses asked for.
-static vsc_status share_volumes(const vsc_mesh *mesh, vsc_mass_kind kind, double *volumes,
-                                vsc_error *error)
-{
-  if (kind == VSC_MASS_VORONOI) return vsc_voronoi_volumes(mesh, volumes, error);
-  for (size_t e = 0; e < mesh->element_count; e++)
-    vsc_lumped_volumes(mesh, e, volumes + mesh->start[e]);
-  return VSC_OK;
-}
-
-static void add_masses(const vsc_mesh *mesh, const vsc_definition *definition,
-                       const uint32_t *material_of, const uint32_t *number, const double *volumes,
-                       vsc_model *model)
+static void lumped_masses(const vsc_mesh *mesh, const double *density, double *masses)
 {
   for (size_t e = 0; e < mesh->element_count; e++) {
-    const double density = definition->materials[material_of[e]].density;
-    for (size_t i = mesh->start[e]; i < mesh->start[e + 1]; i++)
-      model->mass[number[mesh->corners[i]]] += density * volumes[i];
+    double volumes[VSC_MOST_CORNERS];
+    const uint32_t *corner = vsc_mesh_corners(mesh, e);
+    vsc_lumped_volumes(mesh, e, volumes);
+    for (int c = 0; c < vsc_mesh_kind(mesh, e)->corners; c++)
+      masses[corner[c]] += density[e] * volumes[c];
   }
 }
 
-static void finish_masses(const vsc_definition *definition, vsc_model *model)
+static vsc_status finish_masses(const vsc_mesh *mesh, const vsc_definition *definition,
+                                const double *masses, vsc_model *model, vsc_error *error)
 {
-  for (size_t n = 0; n < model->node_count; n++) model->total_mass += model->mass[n];
+  for (size_t n = 0; n < model->node_count; n++) {
+    model->mass[n] = masses[model->mesh_node[n]];
+    model->total_mass += model->mass[n];
+  }
   for (size_t n = 0; n < model->node_count; n++) {
     if (definition->masses == VSC_MASS_EQUAL)
       model->mass[n] = model->total_mass / (double)model->node_count;
+    if (!(model->mass[n] > 0))
+      return vsc_fail(error, VSC_INPUT,
+                      "masses: node %u would have no mass, nothing is nearest to it; use masses: "
+                      "lumped",
+                      mesh->node_source[model->mesh_node[n]]);
     for (int i = 0; i < 3; i++) model->inverse_mass[4 * n + i] = 1 / model->mass[n];
   }
+  return VSC_OK;
 }
 
 vsc_status vsc_terms_masses(const vsc_mesh *mesh, const vsc_definition *definition,
                             const uint32_t *material_of, vsc_model *model, vsc_error *error)
 {
   const size_t nodes = model->node_count;
-  double *volumes = NULL;
-  uint32_t *number = vsc_model_node_numbers(model);
+  double *masses = NULL, *density = NULL;
   vsc_status status = VSC_OK;
-  if (number == NULL || !VSC_NEW(volumes, mesh->start[mesh->element_count]) ||
+  if (!VSC_NEW(masses, nodes) || !VSC_NEW(density, mesh->element_count) ||
       !VSC_NEW(model->rest, 4 * nodes) || !VSC_NEW(model->mass, nodes) ||
-      !VSC_NEW(model->inverse_mass, 4 * nodes))
-    status = vsc_fail_memory(error, "the nodes");
-  if (status == VSC_OK) status = share_volumes(mesh, definition->masses, volumes, error);
-  if (status == VSC_OK) {
-    for (size_t n = 0; n < nodes; n++)
-      memcpy(model->rest + 4 * n, mesh->nodes + 3 * (size_t)model->mesh_node[n],
-             3 * sizeof(double));
-    add_masses(mesh, definition, material_of, number, volumes, model);
-    finish_masses(definition, model);
+      !VSC_NEW(model->inverse_mass, 4 * nodes)) {
+    vsc_free(masses);
+    vsc_free(density);
+    return vsc_fail_memory(error, "the nodes");
   }
-  vsc_free(number);
-  vsc_free(volumes);
+  for (size_t n = 0; n < nodes; n++)
+    memcpy(model->rest + 4 * n, mesh->nodes + 3 * (size_t)model->mesh_node[n], 3 * sizeof(double));
+  for (size_t e = 0; e < mesh->element_count; e++)
+    density[e] = definition->materials[material_of[e]].density;
+  if (definition->masses == VSC_MASS_VORONOI)
+    status = vsc_voronoi_masses(mesh, density, masses, error);
+  else
+    lumped_masses(mesh, density, masses);
+  if (status == VSC_OK) status = finish_masses(mesh, definition, masses, model, error);
+  vsc_free(masses);
+  vsc_free(density);
   return status;
 }

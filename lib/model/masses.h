@@ -9,10 +9,12 @@
 // `element`; a quarter each of a tet.
 void vsc_lumped_volumes(const vsc_mesh *mesh, size_t element, double volumes[VSC_MOST_CORNERS]);
 
-// The part of each element that is nearer to a corner than to its others, mm^3: volumes[i] belongs
-// to mesh->corners[i]. Where the mesh is Delaunay and its boundary well-centred, a node's sum is the
-// volume of its Voronoi cell in the body; elsewhere it is still positive, and the sum over an
-// element its volume.
-vsc_status vsc_voronoi_volumes(const vsc_mesh *mesh, double *volumes, vsc_error *error);
+// masses[n] (node_count) = density x the volume of what is nearest to node n, mg: each element (of
+// density[e], mg/mm^3) is shared among its own corners and those of its neighbours across faces by
+// which is nearest. In a Delaunay mesh whose cells reach no further than that it is the volume of
+// the node's Voronoi cell within the body; elsewhere still not negative, and the sum is the mass of
+// the body.
+vsc_status vsc_voronoi_masses(const vsc_mesh *mesh, const double *density, double *masses,
+                              vsc_error *error);
 
 #endif

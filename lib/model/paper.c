@@ -58,8 +58,9 @@ static int meet_face(const double (*x)[3], const int face[4], const double centr
 {
   enum { ROUNDS = 30 };
   double zeta = 0, eta = 0, D[2][4];
+  int found = 0;
   *s = 0;
-  for (int round = 0; round < ROUNDS; round++) {
+  for (int round = 0; round < ROUNDS && !found; round++) {
     double miss[3], column[3][3], dual[3];
     bilinear(zeta, eta, N, D);
     for (int i = 0; i < 3; i++) {
@@ -83,11 +84,11 @@ static int meet_face(const double (*x)[3], const int face[4], const double centr
     zeta += change[0];
     eta += change[1];
     *s += change[2];
-    if (fabs(change[0]) + fabs(change[1]) < 1e-15) break;
+    found = fabs(change[0]) + fabs(change[1]) < 1e-13;
   }
   bilinear(zeta, eta, N, D);
   const double edge = 1 + 1e-9;
-  return fabs(zeta) <= edge && fabs(eta) <= edge && isfinite(*s);
+  return found && fabs(zeta) <= edge && fabs(eta) <= edge;
 }
 
 int vsc_paper_hex(const double x[8][3], const double frame[9], double w[3][8], double r[3],
