@@ -220,7 +220,7 @@ static vsc_status build_elements(const vsc_mesh *mesh, const vsc_axes *axes,
   if (status == VSC_OK) status = vsc_parts_list(mesh, material_of, mixed, model, &parts, error);
   if (status == VSC_OK) status = vsc_patches_build(mesh, axes, &parts, model, error);
   vsc_parts_free(&parts);
-  model->terms.nodal_volume = any_shares_volume(model);
+  if (status == VSC_OK) model->terms.nodal_volume = any_shares_volume(model);
   if (status == VSC_OK) status = vsc_mixture_fill(mesh, definition, model, error);
   return status;
 }
