@@ -64,9 +64,10 @@ static int by_place(const void *a, const void *b)
   return (p->point > q->point) - (p->point < q->point);
 }
 
-// first[i]: the first of the points that lie where point i lies.
-static void weld(const vsc_polydata *polydata, placed *order, uint32_t *first)
+vsc_status vsc_polydata_weld(const vsc_polydata *polydata, uint32_t *first, vsc_error *error)
 {
+  placed *order;
+  if (!VSC_NEW(order, polydata->point_count)) return vsc_fail_memory(error, "the points' order");
   for (size_t i = 0; i < polydata->point_count; i++) {
     memcpy(order[i].x, &polydata->points[3 * i], sizeof order[i].x);
     order[i].point = (uint32_t)i;
@@ -77,6 +78,8 @@ static void weld(const vsc_polydata *polydata, placed *order, uint32_t *first)
     const bool same = i > 0 && x[0] == former[0] && x[1] == former[1] && x[2] == former[2];
     first[order[i].point] = same ? first[order[i - 1].point] : order[i].point;
   }
+  vsc_free(order);
+  return VSC_OK;
 }
 
 // An edge from its lesser to its greater point.
@@ -132,21 +135,19 @@ static double enclosed(const vsc_polydata *polydata)
 vsc_status vsc_polydata_closure(const vsc_polydata *polydata, vsc_closure *closure,
                                 vsc_error *error)
 {
-  placed *order;
-  uint32_t *first = NULL;
+  uint32_t *first;
   edge *edges = NULL;
+  vsc_status status = VSC_OK;
   *closure = (vsc_closure){0};
-  const bool room = VSC_NEW(order, polydata->point_count) &&
-                    VSC_NEW(first, polydata->point_count) &&
-                    VSC_NEW(edges, 3 * polydata->triangle_count);
-  if (room) {
-    weld(polydata, order, first);
+  if (!VSC_NEW(first, polydata->point_count) || !VSC_NEW(edges, 3 * polydata->triangle_count))
+    status = vsc_fail_memory(error, "the edges of a surface");
+  if (status == VSC_OK) status = vsc_polydata_weld(polydata, first, error);
+  if (status == VSC_OK) {
     list_edges(polydata, first, edges);
     count_edges(edges, 3 * polydata->triangle_count, closure);
     closure->volume = enclosed(polydata);
   }
-  vsc_free(order);
   vsc_free(first);
   vsc_free(edges);
-  return room ? VSC_OK : vsc_fail_memory(error, "the edges of a surface");
+  return status;
 }

@@ -28,6 +28,9 @@ vsc_polydata *vsc_polydata_create(size_t points, size_t triangles, size_t segmen
 
 void vsc_polydata_free(vsc_polydata *polydata);  // NULL is fine
 
+// first[i] (point_count): the first of the points that lie just where point i lies.
+vsc_status vsc_polydata_weld(const vsc_polydata *polydata, uint32_t *first, vsc_error *error);
+
 // How the triangles hang together, points at the same place being one.
 typedef struct vsc_closure {
   size_t open_edges;    // edges that have not just two triangles
