@@ -16,16 +16,19 @@
 #include <vtkIntArray.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkPolyData.h>
 #include <vtkTypeInt32Array.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLImageDataWriter.h>
+#include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
 extern "C" {
 #include "io/replace.h"
 #include "io/vtk.h"
+#include "io/vtk_polydata.h"
 }
 #include "io/vtk_quiet.hh"
 
@@ -197,7 +200,42 @@ vsc_status write_image(const char *file, const vsc_image *image, vsc_error *erro
   return write_file<vtkXMLImageDataWriter>(file, grid, error);
 }
 
+vtkSmartPointer<vtkCellArray> make_cells(size_t count, int corners, const uint32_t *numbers)
+{
+  vtkNew<vtkTypeInt64Array> offsets, points;
+  offsets->SetNumberOfValues((vtkIdType)count + 1);
+  points->SetNumberOfValues((vtkIdType)count * corners);
+  for (size_t i = 0; i <= count; i++) offsets->SetValue((vtkIdType)i, (vtkIdType)i * corners);
+  for (size_t i = 0; i < count * (size_t)corners; i++) points->SetValue((vtkIdType)i, numbers[i]);
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(offsets, points);
+  return vtkSmartPointer<vtkCellArray>(cells.GetPointer());
+}
+
+vsc_status write_polydata(const char *file, const vsc_polydata *from, vsc_error *error)
+{
+  vtkNew<vtkPolyData> data;
+  vtkNew<vtkPoints> points;
+  points->SetData(make_array<vtkFloatArray>("Points", 3, 0, from->point_count,
+                                            from->point_count, from->points));
+  data->SetPoints(points);
+  if (from->triangle_count > 0)
+    data->SetPolys(make_cells(from->triangle_count, 3, from->triangles));
+  if (from->segment_count > 0) data->SetLines(make_cells(from->segment_count, 2, from->segments));
+  for (size_t i = 0; i < from->point_data.count; i++) {
+    const vsc_array *array = &from->point_data.items[i];
+    data->GetPointData()->AddArray(make_array<vtkFloatArray>(
+      array->name, array->components, 0, from->point_count, from->point_count, array->values));
+  }
+  return write_file<vtkXMLPolyDataWriter>(file, data, error);
+}
+
 }  // namespace
+
+vsc_status vsc_vtk_write_polydata(const char *file, const vsc_polydata *polydata, vsc_error *error)
+{
+  return guarded(file, error, [&] { return write_polydata(file, polydata, error); });
+}
 
 vsc_status vsc_vtk_write_mesh(const char *file, const vsc_mesh *mesh, size_t array_count,
                               const vsc_vtk_array *arrays, bool double_precision, vsc_error *error)

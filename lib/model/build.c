@@ -18,7 +18,7 @@ static int material_of_region(const vsc_definition *definition, double region)
   int rest = -1;
   for (size_t m = 0; m < definition->material_count; m++) {
     const vsc_material_def *material = &definition->materials[m];
-    if (material->region_count == 0 && !vsc_is_inclusion(definition, material->name)) rest = (int)m;
+    if (material->region_count == 0 && vsc_takes_elements(definition, m)) rest = (int)m;
     for (size_t r = 0; r < material->region_count; r++)
       if (region == material->regions[r]) return (int)m;
   }

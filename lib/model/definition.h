@@ -11,6 +11,7 @@
 #include "base/status.h"
 #include "base/text.h"
 #include "mesh/select.h"
+#include "model/fiber_def.h"
 
 // A function of time with values mostly in [0, 1]; loads and activation scale it by a peak value.
 typedef enum vsc_curve_kind {
@@ -199,6 +200,8 @@ typedef struct vsc_definition {
   char region_array[VSC_NAME];  // tet array of region numbers; empty: one region, 0
   size_t material_count;
   vsc_material_def *materials;  // owned
+  size_t vessel_count;
+  vsc_vessel_def *vessels;  // owned
   vsc_volume_kind volume;
   size_t surface_count;
   vsc_selector *surfaces;  // owned
@@ -229,14 +232,14 @@ vsc_membrane_def vsc_default_membrane(void);
 vsc_obstacle_def vsc_default_obstacle(void);
 vsc_definition vsc_default_definition(void);
 
+// Whether the material takes elements of its own: those of its regions or, without any, what no other
+// material names. One without regions that a vessel or an inclusion names takes none.
+bool vsc_takes_elements(const vsc_definition *definition, size_t material);
+
 // Refuses numbers that mean nothing (negative moduli, no volume modulus, rest stretch outside
 // (0, 1], ...) with the key as the scene writes it (materials[0].axial ...), the value and the
 // remedy.
 vsc_status vsc_definition_check(const vsc_definition *definition, vsc_error *error);
-
-// True when another material, or a vessel, names this one as its inclusion: such a material has no
-// elements of its own unless it lists regions.
-bool vsc_is_inclusion(const vsc_definition *definition, const char *material);
 
 // Releases what the definition owns, not the struct itself.
 void vsc_definition_free(vsc_definition *definition);

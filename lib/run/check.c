@@ -112,6 +112,20 @@ static void say_fibers(const vsc_problem *problem, FILE *out)
   fputc('\n', out);
 }
 
+static void say_vessels(const vsc_problem *problem, FILE *out)
+{
+  for (size_t v = 0; v < problem->scene->definition.vessel_count; v++) {
+    const vsc_vessel_def *def = &problem->scene->definition.vessels[v];
+    const vsc_vessel_report *r = &problem->vessels[v];
+    fprintf(out,
+            "vessel     %s: %s, %zu %s, %.4g ml; in the mesh %.4g ml of %s in %zu elements, %zu along "
+            "it (fraction %g and more)\n",
+            def->name, def->file, r->pieces, r->surface ? "triangles" : "segments",
+            1e-3 * r->own_volume, 1e-3 * r->volume, def->material, r->elements, r->directed,
+            def->threshold);
+  }
+}
+
 static void say_law(const vsc_material *m, FILE *out)
 {
   const vsc_paper_def *p = &m->paper;
@@ -238,6 +252,7 @@ vsc_status vsc_check(const vsc_problem *problem, FILE *stream, int *warnings, vs
     say_surface(problem, &model->surfaces[s], stream);
   say_supports(problem, stream);
   say_fibers(problem, stream);
+  say_vessels(problem, stream);
   for (size_t m = 0; m < model->material_count; m++) say_material(model, &model->materials[m], stream);
   say_terms(model, stream);
   vsc_state *state;
