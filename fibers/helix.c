@@ -142,7 +142,8 @@ static vsc_status check_parts(const laplace *problem, vsc_error *error)
 static vsc_status cholmod_failure(const laplace *problem, vsc_error *error)
 {
   switch (problem->common.status) {
-    case CHOLMOD_OUT_OF_MEMORY: return vsc_fail_memory(error, "the depth of the wall");
+    case CHOLMOD_OUT_OF_MEMORY:
+      return vsc_fail_memory(error, "the depth of the wall");
     case CHOLMOD_TOO_LARGE:
       return vsc_fail(error, VSC_SYSTEM,
                       "helix: %zu free nodes are too many for the solver: use a coarser mesh",
