@@ -30,13 +30,34 @@ static vsc_mesh *as_tets(const vsc_mesh *mesh)
   return result;
 }
 
+// Numbers the nodes by chance.
+static void shuffle_nodes(vsc_mesh *mesh, uint64_t seed)
+{
+  uint32_t *number = vsc_alloc(mesh->node_count, sizeof *number);
+  for (size_t i = 0; i < mesh->node_count; i++) {
+    const size_t other = (size_t)((double)(i + 1) * random_part(&seed));
+    number[i] = number[other];
+    number[other] = (uint32_t)i;
+  }
+  double *nodes = vsc_alloc(3 * mesh->node_count, sizeof *nodes);
+  memcpy(nodes, mesh->nodes, 3 * mesh->node_count * sizeof *nodes);
+  for (size_t i = 0; i < mesh->node_count; i++)
+    memcpy(mesh->nodes + 3 * (size_t)number[i], nodes + 3 * i, 3 * sizeof *nodes);
+  for (size_t c = 0; c < mesh->start[mesh->element_count]; c++)
+    mesh->corners[c] = number[mesh->corners[c]];
+  vsc_free(nodes);
+  vsc_free(number);
+}
+
 static void tets_fill_and_fit(void **state)
 {
   (void)state;
   static const int expected[VSC_CELLS] = {
       [VSC_TET] = 1, [VSC_HEX] = 6, [VSC_WEDGE] = 3, [VSC_PYRAMID] = 2};
   size_t seen[VSC_CELLS] = {0};
-  vsc_mesh *mesh = hybrid_block(4, 0, 5), *tets = as_tets(mesh);
+  vsc_mesh *mesh = hybrid_block(4, 0, 5);
+  shuffle_nodes(mesh, 3);
+  vsc_mesh *tets = as_tets(mesh);
   size_t at = 0;
   for (size_t e = 0; e < mesh->element_count; e++) {
     uint32_t own[VSC_MOST_TETS][4];
