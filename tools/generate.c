@@ -11,6 +11,8 @@
 #include "base/mem.h"
 #include "io/vtk.h"
 #include "tools/shapes.h"
+#include "tools/shapes_block.h"
+#include "tools/shapes_cloud.h"
 #include "tools/verbs.h"
 
 typedef struct wish {
@@ -18,6 +20,9 @@ typedef struct wish {
   const char *file;
   vsc_lv_shape lv;
   vsc_block_shape block;
+  vsc_block_kind element;
+  bool unstructured;
+  size_t points;  // 0: the default
   double endo_angle, epi_angle;  // degrees
   double spacing;                // mm; 0: a quarter of the wall
 } wish;
@@ -44,13 +49,18 @@ static void print_help(void)
       "      --size=X,Y,Z                     [10,10,10]\n"
       "      --tets=5|6                       tets of a brick [5]\n"
       "      --jitter=PART --seed=N           inner nodes moved by up to PART of a brick, 0 to 0.3 "
-      "[0, 1]\n\n"
+      "[0, 1]\n"
+      "      --element=tet|hex|wedge|mixed    what becomes of the bricks [tet]\n"
+      "      --unstructured                   instead of bricks, scattered points and their Delaunay "
+      "tets\n"
+      "      --points=N                       how many of them [400]\n\n"
       "  -o, --output=FILE                    [lv.vtu, lv_angles.vti, block.vtu]\n"
       "  -h, --help                           this text\n\n"
       "Examples:\n"
       "  viscera generate lv -o data/lv.vtu\n"
       "  viscera generate map --spacing 2.4 -o data/lv_angles.vti\n"
-      "  viscera generate block --cells 8,4,4 --size 40,20,20 --jitter 0.2 -o block.vtu");
+      "  viscera generate block --cells 8,4,4 --size 40,20,20 --jitter 0.2 -o block.vtu\n"
+      "  viscera generate block --unstructured --points 222 --seed 3 -o scattered.vtu");
 }
 
 enum {
@@ -69,7 +79,10 @@ enum {
   SIZE,
   TETS,
   JITTER,
-  SEED
+  SEED,
+  ELEMENT,
+  UNSTRUCTURED,
+  POINTS,
 };
 
 static const struct option options[] = {
@@ -89,6 +102,9 @@ static const struct option options[] = {
     {"tets", required_argument, NULL, TETS},
     {"jitter", required_argument, NULL, JITTER},
     {"seed", required_argument, NULL, SEED},
+    {"element", required_argument, NULL, ELEMENT},
+    {"unstructured", no_argument, NULL, UNSTRUCTURED},
+    {"points", required_argument, NULL, POINTS},
     {"output", required_argument, NULL, 'o'},
     {"help", no_argument, NULL, 'h'},
     {NULL, 0, NULL, 0},
@@ -117,6 +133,19 @@ static bool read_counts(const char *text, size_t *counts, int count)
   return true;
 }
 
+static bool read_element(const char *text, vsc_block_kind *kind)
+{
+  static const char *const words[] = {[VSC_BLOCK_TETS] = "tet",
+                                      [VSC_BLOCK_HEXES] = "hex",
+                                      [VSC_BLOCK_WEDGES] = "wedge",
+                                      [VSC_BLOCK_MIXED] = "mixed"};
+  for (size_t k = 0; k < sizeof words / sizeof words[0]; k++) {
+    *kind = (vsc_block_kind)k;
+    if (strcmp(text, words[k]) == 0) return true;
+  }
+  return false;
+}
+
 static bool read_option(wish *wish, int option, const char *text)
 {
   size_t count = 0;
@@ -140,6 +169,9 @@ static bool read_option(wish *wish, int option, const char *text)
       good = read_counts(text, &count, 1);
       wish->block.tets_per_cell = (int)count;
       return good;
+    case ELEMENT: return read_element(text, &wish->element);
+    case UNSTRUCTURED: return wish->unstructured = true;
+    case POINTS: return read_counts(text, &wish->points, 1) && wish->points > 0;
     default:
       good = read_counts(text, &count, 1);
       wish->block.seed = count;
@@ -205,10 +237,15 @@ static vsc_status generate_map(const wish *wish, const char *file, vsc_error *er
 static vsc_status generate_block(const wish *wish, const char *file, vsc_error *error)
 {
   vsc_mesh *mesh = NULL;
-  vsc_status status = vsc_block_mesh(&wish->block, &mesh, error);
+  vsc_cloud_shape cloud = vsc_cloud_default();
+  memcpy(cloud.size, wish->block.size, sizeof cloud.size);
+  cloud.seed = wish->block.seed;
+  if (wish->points > 0) cloud.points = wish->points;
+  vsc_status status = wish->unstructured ? vsc_cloud_mesh(&cloud, &mesh, error)
+                                         : vsc_block_of(&wish->block, wish->element, &mesh, error);
   if (status == VSC_OK) status = write_mesh(file, mesh, error);
   if (status == VSC_OK)
-    printf("%s: %zu nodes, %zu tets, %g mm3\n", file, mesh->node_count, mesh->element_count,
+    printf("%s: %zu nodes, %zu elements, %g mm3\n", file, mesh->node_count, mesh->element_count,
            mesh_volume(mesh));
   vsc_mesh_free(mesh);
   return status;
