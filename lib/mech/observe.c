@@ -232,6 +232,10 @@ void vsc_observe(const vsc_model *model, vsc_state *state, vsc_ledger *ledger, b
     totals->stretch_low = totals->stretch_high = totals->stretch_mean = 1;
   if (active_volume > 0) totals->tension_mean /= active_volume;
   observe_nodes(model, state, totals);
+  for (size_t o = 0; o < model->obstacle_count; o++) {
+    totals->contact_work += state->contact[o].work;
+    totals->contact_lost += state->contact[o].lost;
+  }
   if (model->terms.nodal_volume) observe_groups(model, state, totals);
   const double pushed = pressure_work(model, state, ledger->push);
   if (ledger->calls > 0 && !resume) {
@@ -249,5 +253,5 @@ void vsc_observe(const vsc_model *model, vsc_state *state, vsc_ledger *ledger, b
 double vsc_balance_error(const vsc_ledger *ledger, const vsc_totals *totals)
 {
   return stored_and_kinetic(totals) - ledger->start - ledger->active - ledger->pressure +
-         ledger->dissipated;
+         ledger->dissipated - totals->contact_work + totals->contact_lost;
 }
