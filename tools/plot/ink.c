@@ -67,7 +67,7 @@ void vsc_draw_bar(cairo_t *cairo, double x, double y, double width, double low, 
   const double step = vsc_tick_step(high - low), slack = 1e-6 * (high - low);
   for (double k = ceil((low - slack) / step); k * step <= high + slack; k++) {
     char text[32];
-    snprintf(text, sizeof text, "%g", k * step);
+    snprintf(text, sizeof text, "%g", k == 0 ? 0 : k * step);
     vsc_write_text(cairo, x + (k * step - low) / (high - low) * width, y + 34, 13, VSC_INK, 0.5,
                    text);
   }
