@@ -33,7 +33,8 @@ vsc_status vsc_watch_open(const vsc_problem *problem, const char *file, double k
 
 // Observes the state and carries the energy ledger on. VSC_NUMERICAL when the energy balance has
 // jumped by more than 5 % of the largest energy seen (at least that of 3 % strain everywhere): the
-// simulation is coming apart although all numbers are finite.
+// simulation is coming apart although all numbers are finite. Law PAPER, which makes energy, and a
+// forced step are not held to it.
 vsc_status vsc_watch_observe(const vsc_problem *problem, vsc_state *state, vsc_watch *watch,
                              vsc_error *error);
 

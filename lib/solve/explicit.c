@@ -112,11 +112,11 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
     return vsc_fail(error, VSC_NUMERICAL,
                     "no stable time step was found: every node is held or nothing is stiff; check "
                     "supports and moduli");
-  if (model->step > stable)
+  if (model->step > stable && !model->force_step)
     return vsc_fail(error, VSC_INPUT,
                     "time.step: %.6g ms is above the stable step of %.6g ms (at rest %.6g, at full "
                     "activation %.6g); "
-                    "use `step: auto` or a smaller step",
+                    "use `step: auto`, a smaller step, or `force: true` to see what happens",
                     model->step, stable, state->limit.step, active_step);
   state->limit.time = state->time;
   state->limit.interval = SHORTEST_TRUST;
@@ -143,7 +143,7 @@ static vsc_status refresh_limit(const vsc_model *model, vsc_state *state, vsc_er
                     "torn or crushed; take "
                     "more damping or a smaller load",
                     state->time, limit->first, limit->step);
-  if (model->step > limit->step / model->safety)
+  if (model->step > limit->step / model->safety && !model->force_step)
     return vsc_fail(error, VSC_NUMERICAL,
                     "at %.6g ms the tissue has become too stiff for time.step %.6g ms: the stable "
                     "step is now %.6g ms; "
@@ -166,19 +166,36 @@ static vsc_status check_finite(const vsc_model *model, const vsc_state *state, v
       state->time, state->steps, model->mesh_node[bad], rest[0], rest[1], rest[2]);
 }
 
+// Steps on to `stop` in equal steps not longer than the stable one.
+static void step_to(const vsc_model *model, vsc_state *state, double stop)
+{
+  const double start = state->time;
+  const double steps = fmax(ceil((stop - start) / state->limit.step * (1 - 1e-12)), 1);
+  vsc_steps(model, state, (stop - start) / steps, steps);
+  state->time = stop;
+}
+
+// Steps of the user's length, counted from time 0, to the first that is not before `stop`.
+static void fixed_steps_to(const vsc_model *model, vsc_state *state, double stop)
+{
+  const double done = round(state->time / model->step);
+  const double steps = fmax(ceil(stop / model->step * (1 - 1e-12)) - done, 1);
+  vsc_steps(model, state, model->step, steps);
+  state->time = (done + steps) * model->step;
+}
+
 vsc_status vsc_advance(const vsc_model *model, vsc_state *state, double until, vsc_error *error)
 {
-  while (state->time < until) {
+  while (state->time < until * (1 - 1e-12)) {
     if (state->time - state->limit.time >= state->limit.interval * (1 - 1e-9)) {
       const vsc_status status = refresh_limit(model, state, error);
       if (status != VSC_OK) return status;
     }
     const double stop = fmin(until, state->limit.time + state->limit.interval);
-    const double step = model->step > 0 ? model->step : state->limit.step;
-    const double start = state->time;
-    const double steps = fmax(ceil((stop - start) / step * (1 - 1e-12)), 1);
-    vsc_steps(model, state, (stop - start) / steps, steps);
-    state->time = stop;
+    if (model->step > 0)
+      fixed_steps_to(model, state, stop);
+    else
+      step_to(model, state, stop);
     const vsc_status status = check_finite(model, state, error);
     if (status != VSC_OK) return status;
   }
