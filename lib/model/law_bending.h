@@ -43,11 +43,6 @@ typedef struct vsc_fold {
   vsc_wide s_l, r_l;
 } vsc_fold;
 
-VSC_INLINE vsc_wide3 vsc_wide_subtract(vsc_wide3 a, vsc_wide3 b)
-{
-  return (vsc_wide3){a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
 // 1/a, or 0 where a is 0 (or its inverse overflows).
 VSC_INLINE vsc_wide vsc_wide_inverse(vsc_wide a)
 {
@@ -58,8 +53,8 @@ VSC_INLINE vsc_wide vsc_wide_inverse(vsc_wide a)
 VSC_INLINE vsc_fold vsc_fold_of(vsc_wide3 p, vsc_wide3 q, vsc_wide3 s, vsc_wide3 r)
 {
   vsc_fold fold;
-  const vsc_wide3 edge = vsc_wide_subtract(q, p);
-  const vsc_wide3 to_s = vsc_wide_subtract(s, p), to_r = vsc_wide_subtract(r, p);
+  const vsc_wide3 edge = vsc_wide_minus(q, p);
+  const vsc_wide3 to_s = vsc_wide_minus(s, p), to_r = vsc_wide_minus(r, p);
   const vsc_wide3 n = vsc_wide_cross(edge, to_s), m = vsc_wide_cross(to_r, edge);
   const vsc_wide square = vsc_wide_dot(edge, edge), length = vsc_wide_sqrt(square);
   const vsc_wide nn = vsc_wide_dot(n, n), mm = vsc_wide_dot(m, m);
