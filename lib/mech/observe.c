@@ -237,6 +237,10 @@ void vsc_observe(const vsc_model *model, vsc_state *state, vsc_ledger *ledger, b
   if (active_volume > 0) totals->tension_mean /= active_volume;
   if (model->element_count == 0) totals->J_low = totals->J_high = 1;
   observe_nodes(model, state, totals);
+  for (size_t o = 0; o < model->obstacle_count; o++) {
+    totals->contact_work += state->contact[o].work;
+    totals->contact_lost += state->contact[o].lost;
+  }
   if (model->terms.nodal_volume) observe_groups(model, state, totals);
   const double pushed = pressure_work(model, state, ledger->push);
   if (ledger->calls > 0 && !resume) {
@@ -254,5 +258,5 @@ void vsc_observe(const vsc_model *model, vsc_state *state, vsc_ledger *ledger, b
 double vsc_balance_error(const vsc_ledger *ledger, const vsc_totals *totals)
 {
   return stored_and_kinetic(totals) - ledger->start - ledger->active - ledger->pressure +
-         ledger->dissipated;
+         ledger->dissipated - totals->contact_work + totals->contact_lost;
 }

@@ -27,6 +27,8 @@ typedef struct vsc_totals {
       tension_mean;    // active tension, kPa (mean by rest volume, over active materials)
   double known_volume; // rest volume of the elements with a known fibre, mm^3
   double inverted;     // number of elements with J <= 0 in a frame
+  double contact_work;   // done by moving obstacles since the start, uJ
+  double contact_lost;   // in impacts and friction since the start, uJ
   double active_work;  // done by active tension since the last call on the same ledger, uJ
 } vsc_totals;
 

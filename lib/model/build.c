@@ -188,6 +188,12 @@ static void hash_model(vsc_model *model)
     hash = vsc_hash(hash, &load->peak, sizeof load->peak);
     hash = vsc_hash(hash, &load->curve.hash, sizeof load->curve.hash);
   }
+  for (size_t o = 0; o < model->obstacle_count; o++) {
+    const vsc_obstacle *obstacle = &model->obstacles[o];
+    hash = vsc_hash(hash, &obstacle->kind, offsetof(vsc_obstacle, curve));
+    hash = vsc_hash(hash, &obstacle->curve.hash, sizeof obstacle->curve.hash);
+    hash = vsc_hash(hash, obstacle->nodes, obstacle->node_count * sizeof *obstacle->nodes);
+  }
   hash = vsc_hash(hash, model->axes, model->axis_count * sizeof *model->axes);
   hash = vsc_hash(hash, model->pairs, model->pair_count * sizeof *model->pairs);
   hash = vsc_hash(hash, model->gravity, sizeof model->gravity);
@@ -294,6 +300,7 @@ static vsc_status build(const vsc_mesh *mesh, const vsc_axes *axes,
   if (status == VSC_OK) status = vsc_terms_masses(mesh, definition, material_of, model, error);
   if (status == VSC_OK) status = vsc_terms_volume_groups(model, error);
   if (status == VSC_OK) status = vsc_terms_supports(definition, model, error);
+  if (status == VSC_OK) status = vsc_terms_obstacles(mesh, definition, model, error);
   if (status == VSC_OK) status = vsc_terms_loads(definition, model, error);
   if (status == VSC_OK) hash_model(model);
   return status;

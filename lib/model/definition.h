@@ -164,6 +164,8 @@ typedef enum vsc_kept_volume {
   VSC_KEEP_ELEMENT,  // of each element
 } vsc_kept_volume;
 
+enum { VSC_MOST_OBSTACLES = 8 };
+
 typedef enum vsc_obstacle_kind { VSC_OBSTACLE_PLANE, VSC_OBSTACLE_SPHERE } vsc_obstacle_kind;
 
 // A rigid thing that no node may enter.

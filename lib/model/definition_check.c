@@ -376,6 +376,8 @@ vsc_status vsc_definition_check(const vsc_definition *d, vsc_error *error)
   for (size_t i = 0; i < d->membrane_count; i++) check_membrane(&c, d, i);
   for (size_t i = 0; i < d->obstacle_count; i++) check_obstacle(&c, d, i);
   c.where[0] = '\0';
+  need(&c, d->obstacle_count <= VSC_MOST_OBSTACLES, "obstacles", (double)d->obstacle_count, "of them",
+       "eight are the most");
   check_finite3(&c, "gravity", d->gravity, "mm/ms2");
   need_positive(&c, "time.end", d->end_time, "ms", "give a time above zero");
   need_not_negative(&c, "time.step", d->step, "ms");

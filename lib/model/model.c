@@ -42,6 +42,11 @@ static void free_lists(vsc_model *model)
     vsc_curve_free(&model->pressures[p].curve);
   }
   vsc_free(model->pressures);
+  for (size_t o = 0; model->obstacles && o < model->obstacle_count; o++) {
+    vsc_free(model->obstacles[o].nodes);
+    vsc_curve_free(&model->obstacles[o].curve);
+  }
+  vsc_free(model->obstacles);
   for (size_t s = 0; model->surfaces && s < model->surface_count; s++)
     vsc_surface_free(&model->surfaces[s]);
   vsc_free(model->surfaces);

@@ -152,6 +152,19 @@ typedef struct vsc_pressure {
   vsc_curve curve;      // owned
 } vsc_pressure;
 
+// A rigid thing that nodes may not enter; it moves by motion . curve(t).
+typedef struct vsc_obstacle {
+  vsc_obstacle_kind kind;
+  double point[3];   // of the plane, or the sphere's centre, at curve value 0, mm
+  double normal[3];  // PLANE: unit vector towards the free side
+  double radius;     // SPHERE, mm
+  double friction;
+  double motion[3];   // mm
+  vsc_curve curve;    // owned
+  size_t node_count;  // nodes that it stops
+  uint32_t *nodes;    // owned
+} vsc_obstacle;
+
 // Which force terms this scene has; what is absent is not in the loop.
 typedef struct vsc_terms {
   bool damping;
@@ -210,6 +223,8 @@ typedef struct vsc_model {
   vsc_pair *pairs;
   size_t pressure_count;
   vsc_pressure *pressures;
+  size_t obstacle_count;
+  vsc_obstacle *obstacles;
   double gravity[3];     // mm/ms^2
   size_t surface_count;  // the named surfaces, with the mesh's node numbers
   vsc_surface *surfaces;
@@ -323,6 +338,14 @@ int vsc_model_find_surface(const vsc_model *model, const char *name);
 
 // Pressure of load `p` at `time`, kPa.
 double vsc_model_pressure(const vsc_model *model, size_t p, double time);
+
+// Where an obstacle is at `time`: its point or centre, mm.
+void vsc_obstacle_place(const vsc_obstacle *obstacle, double time, double point[3]);
+
+// How far `x` is outside an obstacle whose point is at `point` (below 0: inside), mm, and the unit
+// vector that leads out of it.
+double vsc_obstacle_gap(const vsc_obstacle *obstacle, const double point[3], const double x[3],
+                        double normal[3]);
 
 // Activation of slot `slot` of `material` at `time`: amplitude . curve(time - delay).
 double vsc_model_activation(const vsc_model *model, const vsc_material *material, size_t slot,

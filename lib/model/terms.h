@@ -31,6 +31,10 @@ vsc_status vsc_terms_selections(const vsc_mesh *mesh, const vsc_definition *defi
 // Held directions: inverse mass 0.
 vsc_status vsc_terms_supports(const vsc_definition *definition, vsc_model *model, vsc_error *error);
 
+// Obstacles (obstacles.c). VSC_INPUT for a node that begins inside one.
+vsc_status vsc_terms_obstacles(const vsc_mesh *mesh, const vsc_definition *definition,
+                               vsc_model *model, vsc_error *error);
+
 // Pressures and weights.
 vsc_status vsc_terms_loads(const vsc_definition *definition, vsc_model *model, vsc_error *error);
 

@@ -193,6 +193,14 @@ static void say_terms(const vsc_model *model, FILE *out)
             model->pressures[p].peak * vsc_curve_peak(&model->pressures[p].curve),
             model->pressures[p].triangle_count);
   fputc('\n', out);
+  for (size_t o = 0; o < model->obstacle_count; o++) {
+    const vsc_obstacle *it = &model->obstacles[o];
+    fprintf(out, "obstacle   %zu: %s at (%g, %g, %g)", o,
+            it->kind == VSC_OBSTACLE_PLANE ? "plane" : "sphere", it->point[0], it->point[1],
+            it->point[2]);
+    if (it->kind == VSC_OBSTACLE_SPHERE) fprintf(out, ", radius %g mm", it->radius);
+    fprintf(out, ", friction %g, stops %zu nodes\n", it->friction, it->node_count);
+  }
 }
 
 // Seconds of one step, by doing some.

@@ -150,9 +150,12 @@ static void warn_setting(writer *w, const vsc_problem *problem)
     warn(w, "mesh: its box is %.3g x %.3g x %.3g mm: is mesh.unit right?", size[0], size[1],
          size[2]);
   const bool driven = model->pressure_count > 0 || model->terms.gravity;
-  if (model->held_count == 0 && driven)
+  if (model->held_count == 0 && model->obstacle_count == 0 && driven)
     warn(w, "supports: nothing is held, so the load will carry the body away");
-  if (model->terms.active == VSC_ACTIVE_NONE && !driven)
+  bool pushed = false;
+  for (size_t o = 0; o < model->obstacle_count; o++)
+    pushed |= vsc_norm(model->obstacles[o].motion) > 0;
+  if (model->terms.active == VSC_ACTIVE_NONE && !driven && !pushed)
     warn(w, "nothing will move: no active material, no pressure, no gravity");
   if (!model->terms.damping) warn(w, "materials: no damping, so vibrations never die away");
 }

@@ -40,6 +40,23 @@ static void put_energies(const vsc_model *model, vsc_watch *watch)
   put(watch, "mJ", MJ * vsc_balance_error(ledger, t), "balance_error", "");
 }
 
+// The mean reaction of each obstacle since the last row, mN, and what contact does to the energy.
+static void put_contact(const vsc_model *model, const vsc_state *state, vsc_watch *watch)
+{
+  for (size_t o = 0; o < model->obstacle_count; o++) {
+    const vsc_contact_sums *sums = &state->contact[o];
+    const double passed = state->time - sums->row_time;
+    char name[32];
+    for (int i = 0; i < 3; i++) {
+      snprintf(name, sizeof name, "obstacle_%zu_%c", o, "xyz"[i]);
+      put(watch, "mN", passed > 0 ? (sums->impulse[i] - sums->row_impulse[i]) / passed : 0, name, "");
+    }
+  }
+  if (model->obstacle_count == 0) return;
+  put(watch, "mJ", MJ * watch->totals.contact_work, "work_obstacles", "");
+  put(watch, "mJ", MJ * watch->totals.contact_lost, "lost_contact", "");
+}
+
 static void make_row(const vsc_problem *problem, vsc_state *state, vsc_watch *watch)
 {
   static const char *const axis[3] = {"x", "y", "z"};
@@ -68,6 +85,7 @@ static void make_row(const vsc_problem *problem, vsc_state *state, vsc_watch *wa
   }
   put(watch, "1", t->inverted, "inverted_elements", "");
   put_energies(model, watch);
+  put_contact(model, state, watch);
   for (int i = 0; i < 3; i++) put(watch, "mg m/s", t->momentum[i], "momentum_", axis[i]);
   for (int i = 0; i < 3; i++)
     put(watch, "mg mm m/s", t->angular_momentum[i], "angular_momentum_", axis[i]);
@@ -213,6 +231,11 @@ vsc_status vsc_watch_row(const vsc_problem *problem, vsc_state *state, vsc_watch
                          vsc_error *error)
 {
   make_row(problem, state, watch);
+  for (size_t o = 0; o < problem->model->obstacle_count; o++) {
+    vsc_contact_sums *sums = &state->contact[o];
+    memcpy(sums->row_impulse, sums->impulse, sizeof sums->impulse);
+    sums->row_time = state->time;
+  }
   for (size_t k = 0; k < watch->signal_count; k++) {
     watch->low[k] = watch->rows > 0 ? fmin(watch->low[k], watch->values[k]) : watch->values[k];
     watch->high[k] = watch->rows > 0 ? fmax(watch->high[k], watch->values[k]) : watch->values[k];

@@ -9,8 +9,11 @@
 #include "mesh/surface.h"
 #include "run/problem.h"
 
-// Columns of signals.csv: 30, and one for each cavity and pressure.
-enum { VSC_SIGNALS = 30 + VSC_OUTPUT_ARRAYS + VSC_MOST_PRESSURES, VSC_SIGNAL_NAME = 96 };
+// Columns of signals.csv: 38, one for each cavity and pressure, three for each obstacle.
+enum {
+  VSC_SIGNALS = 38 + VSC_OUTPUT_ARRAYS + VSC_MOST_PRESSURES + 3 * VSC_MOST_OBSTACLES,
+  VSC_SIGNAL_NAME = 96
+};
 
 typedef struct vsc_watch {
   FILE *file;          // signals.csv, open for appending

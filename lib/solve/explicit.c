@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "mech/force.h"
 #include "mech/step_limit.h"
+#include "solve/contact.h"
 
 // The step is re-estimated at intervals between these, ms: twice as late while the eigenvalue stays
 // within 2 %, twice as soon when it moved by more than 10 %.
@@ -69,8 +70,12 @@ static void kick_and_drift(void *context, size_t piece, int thread)
 {
   (void)thread;
   const motion *m = context;
-  for (size_t n = piece * NODES_PER_PIECE; n < piece_end(m, piece); n++)
-    drift_node(m, n, kick_node(m, n));
+  const bool keep = m->model->obstacle_count > 0;  // contact counts work with the acceleration
+  for (size_t n = piece * NODES_PER_PIECE; n < piece_end(m, piece); n++) {
+    const vsc_wide a = kick_node(m, n);
+    if (keep) ((vsc_wide *)m->state->a)[n] = a;
+    drift_node(m, n, a);
+  }
 }
 
 void vsc_steps(const vsc_model *model, vsc_state *state, double dt, double count)
@@ -82,9 +87,11 @@ void vsc_steps(const vsc_model *model, vsc_state *state, double dt, double count
   for (double k = 1; k <= count; k++) {
     state->time += dt;
     state->steps++;
+    if (model->obstacle_count > 0) vsc_contact_resolve(model, state, dt, true);
     vsc_force(model, state->x, velocity, state->time, &state->scratch, state->force);
     vsc_parallel_for(pieces, k < count ? kick_and_drift : kick, &m);
   }
+  if (model->obstacle_count > 0) vsc_contact_settle(model, state, dt);
 }
 
 // The time at which the most is active, for the estimate before the first step.

@@ -12,6 +12,7 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
 
 // `count` (at least 1) steps of length dt (ms), each
 //   v <- v + dt/2 a;  x <- x + dt v;  a <- f(x, v + dt/2 a, t + dt) / m;  v <- v + dt/2 a.
+// After the drift nodes are put out of obstacles (contact.h).
 // Second order, symplectic without damping. Damping sees the velocity predicted for the step's end.
 // Neither the limit nor the result is checked: vsc_advance does.
 void vsc_steps(const vsc_model *model, vsc_state *state, double dt, double count);
