@@ -58,7 +58,8 @@ static void forces_of(const vsc_bends *bends, const double x[N][3], double f[N][
   vsc_fold folds[3];
   vsc_wide3 wide[N];
   folds_of(x, 1, folds);
-  vsc_bend_forces(bends, folds, wide);
+  const vsc_wide nothing[3] = {vsc_splat(0), vsc_splat(0), vsc_splat(0)};
+  vsc_bend_forces(bends, folds, nothing, wide);
   for (int i = 0; i < N; i++) {
     f[i][0] = wide[i].x[1];
     f[i][1] = wide[i].y[1];
@@ -184,6 +185,44 @@ static void angles_up_to_a_half_turn(void **state)
     assert_close(folds[0].phi[0], abs(degrees) == 180 ? 2 * sign : 2 * sin(theta / 2), 0, 5e-16);
     assert_close(folds[0].slope[0], cos(theta / 2), 0, 5e-16);
     assert_close(folds[0].on_r.z[0], cos(theta) / 0.7, 0, 5e-15);
+  }
+}
+
+// dphi/dt by a central difference, of error h^2; damping is what it leads by.
+static void damping_follows_the_rates(void **state)
+{
+  (void)state;
+  const vsc_bends bends = some_bends();
+  uint64_t seed = 10;
+  for (int round = 0; round < 100; round++) {
+    const double h = 1e-4;
+    double x[N][3], plus[N][3], minus[N][3];
+    vsc_wide3 v[N], damped[N], shifted[N];
+    vsc_wide rates[3];
+    vsc_fold folds[3], after[3], before[3];
+    random_state(&seed, x);
+    for (int i = 0; i < N; i++) {
+      double speed[3];
+      random_fill(&seed, 1, speed, 3);
+      v[i] = (vsc_wide3){vsc_splat(speed[0]), vsc_splat(speed[1]), vsc_splat(speed[2])};
+      for (int d = 0; d < 3; d++) {
+        plus[i][d] = x[i][d] + h * speed[d];
+        minus[i][d] = x[i][d] - h * speed[d];
+      }
+    }
+    folds_of(x, 3, folds);
+    folds_of(plus, 3, after);
+    folds_of(minus, 3, before);
+    vsc_bend_rates(folds, v, rates);
+    for (int i = 0; i < 3; i++)
+      assert_close((after[i].phi[3] - before[i].phi[3]) / (2 * h), rates[i][3], 0, 1e-5);
+    vsc_bends moved = bends;
+    const vsc_wide nothing[3] = {vsc_splat(0), vsc_splat(0), vsc_splat(0)};
+    for (int i = 0; i < 3; i++) moved.rest[i] -= rates[i];
+    vsc_bend_forces(&bends, folds, rates, damped);
+    vsc_bend_forces(&moved, folds, nothing, shifted);
+    for (int i = 0; i < N; i++) assert_close(damped[i].y[3], shifted[i].y[3], 1e-12, 1e-12);
+    assert_true(vsc_bend_square(&bends, rates)[3] > 0);
   }
 }
 
@@ -327,6 +366,7 @@ int main(void)
       cmocka_unit_test(forces_neither_push_nor_turn),
       cmocka_unit_test(the_law_turns_and_mirrors),
       cmocka_unit_test(angles_up_to_a_half_turn),
+      cmocka_unit_test(damping_follows_the_rates),
       cmocka_unit_test(triangles_without_area_are_left_out),
       cmocka_unit_test(any_sheet_bends_like_the_plate),
       cmocka_unit_test(rigid_motion_of_a_curved_sheet_is_free),

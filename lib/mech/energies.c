@@ -209,21 +209,26 @@ static vsc_pack_energies triangles(const vsc_model *model, const vsc_patch *patc
 }
 
 static vsc_pack_energies bends(const vsc_model *model, const vsc_patch *patch, size_t k,
-                               const double *x)
+                               const double *x, const double *v)
 {
   const vsc_bend_pack *pack = vsc_bends_of(model, patch) + (k - patch->first_pack);
-  vsc_wide3 at[VSC_BEND_NODES];
+  vsc_wide3 at[VSC_BEND_NODES], speed[VSC_BEND_NODES];
+  vsc_wide rates[3];
   vsc_fold folds[3];
   corners_of(model, patch, pack->node, VSC_BEND_NODES, x, at);
+  corners_of(model, patch, pack->node, VSC_BEND_NODES, v, speed);
   vsc_bend_folds(at, folds);
-  return (vsc_pack_energies){.bending = vsc_bend_energy(&pack->bends, folds)};
+  vsc_bend_rates(folds, speed, rates);
+  const double lag = model->membranes[patch->material].lag;
+  return (vsc_pack_energies){.bending = vsc_bend_energy(&pack->bends, folds),
+                             .dissipation = lag * vsc_bend_square(&pack->bends, rates)};
 }
 
 vsc_pack_energies vsc_pack_energies_of(const vsc_model *model, const vsc_patch *patch, size_t k,
                                        const double *x, const double *v)
 {
   if (patch->family == VSC_TRIANGLES) return triangles(model, patch, k, x, v);
-  if (patch->family == VSC_BENDS) return bends(model, patch, k, x);
+  if (patch->family == VSC_BENDS) return bends(model, patch, k, x, v);
   if (patch->family == VSC_SPRINGS_ON_EDGES) return edge_springs(model, patch, k, x, v);
   switch (model->materials[patch->material].law) {
     case VSC_LAW_PAPER:

@@ -130,11 +130,7 @@ static void patch_volume(void *context, size_t p, int thread)
 // Whether anything in the patch resists velocity.
 static bool is_damped(const vsc_model *model, const vsc_patch *patch)
 {
-  if (patch->family == VSC_BENDS) return false;
-  if (patch->family == VSC_TRIANGLES) {
-    const vsc_membrane *membrane = &model->membranes[patch->material];
-    return membrane->damping[0] > 0 || membrane->damping[1] > 0;
-  }
+  if (vsc_patch_is_surface(patch)) return model->membranes[patch->material].lag > 0;
   const vsc_material *m = &model->materials[patch->material];
   if (patch->family == VSC_SPRINGS_ON_EDGES) return m->classical.damping > 0;
   if (m->law == VSC_LAW_PAPER)

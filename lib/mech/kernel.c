@@ -29,7 +29,7 @@ vsc_patch_kernel *vsc_force_kernel(const vsc_kernel_choice *choice)
     case VSC_TRIANGLES:
       return set->triangles[choice->damping];
     case VSC_BENDS:
-      return set->bends;
+      return set->bends[choice->damping];
     default:
       return cell_kernel(set, choice);
   }

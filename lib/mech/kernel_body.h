@@ -48,6 +48,6 @@ const vsc_kernels KERNEL_SET = {
     .paper_hexes = {force_paper_hexes, force_damped_paper_hexes},
     .springs = {force_springs, force_damped_springs},
     .triangles = {force_triangles, force_damped_triangles},
-    .bends = force_bends,
+    .bends = {force_bends, force_damped_bends},
     .volume = volume_kernel,
 };

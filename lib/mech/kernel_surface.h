@@ -53,7 +53,7 @@ static void force_damped_triangles(const vsc_patch_work *work)
   triangle_kernel(work, true);
 }
 
-static void force_bends(const vsc_patch_work *work)
+VSC_INLINE void bend_kernel(const vsc_patch_work *work, bool damping)
 {
   const vsc_bend_pack *packs = work->packs;
   for (size_t k = 0; k < work->pack_count; k++) {
@@ -61,9 +61,25 @@ static void force_bends(const vsc_patch_work *work)
     vsc_fold folds[3];
     for (int i = 0; i < VSC_BEND_NODES; i++) x[i] = gather_corner(packs[k].node[i], work->x);
     vsc_bend_folds(x, folds);
-    vsc_bend_forces(&packs[k].bends, folds, f);
+    vsc_wide lead[3] = {vsc_splat(0), vsc_splat(0), vsc_splat(0)};
+    if (damping) {
+      for (int i = 0; i < VSC_BEND_NODES; i++) x[i] = gather_corner(packs[k].node[i], work->w);
+      vsc_bend_rates(folds, x, lead);
+      for (int i = 0; i < 3; i++) lead[i] *= work->membrane->lag;
+    }
+    vsc_bend_forces(&packs[k].bends, folds, lead, f);
     for (int i = 0; i < VSC_BEND_NODES; i++) scatter_corner(packs[k].node[i], f[i], work->f);
   }
+}
+
+static void force_bends(const vsc_patch_work *work)
+{
+  bend_kernel(work, false);
+}
+
+static void force_damped_bends(const vsc_patch_work *work)
+{
+  bend_kernel(work, true);
 }
 
 #endif

@@ -231,6 +231,7 @@ static void copy_membrane(const vsc_membrane_def *def, const vsc_sheet *sheet,
                                         .area = def->area_modulus};
   memcpy(membrane->damping, def->damping, sizeof membrane->damping);
   membrane->bending = def->bending;
+  membrane->lag = (def->damping[0] + def->damping[1]) / (def->axial[0] + def->axial[1]);
   membrane->triangle_count = sheet->count;
   for (size_t k = 0; k < sheet->count; k++) membrane->area += sheet->area[k];
 }

@@ -19,7 +19,8 @@
 //   dtheta/dr = m l/|m|^2,  dtheta/ds = n l/|n|^2,
 //   dtheta/dp = -(1 - s_l) dtheta/ds - (1 - r_l) dtheta/dr,  dtheta/dq = -s_l dtheta/ds - r_l dtheta/dr
 //
-// with s_l, r_l = (s - p).(q - p)/l^2, (r - p).(q - p)/l^2.
+// Damping of the same material adds tau sum_j M_ij dphi_j/dt to dpsi/dphi_i, tau (ms) its viscosity
+// over its modulus. Here s_l, r_l = (s - p).(q - p)/l^2, (r - p).(q - p)/l^2.
 #ifndef VSC_MODEL_LAW_BENDING_H
 #define VSC_MODEL_LAW_BENDING_H
 
@@ -84,29 +85,50 @@ VSC_INLINE void vsc_bend_folds(const vsc_wide3 x[VSC_BEND_NODES], vsc_fold folds
     folds[i] = vsc_fold_of(x[i], x[(i + 1) % 3], x[(i + 2) % 3], x[3 + i]);
 }
 
-// dpsi/dphi_i, uJ.
-VSC_INLINE void vsc_bend_moments(const vsc_bends *bends, const vsc_fold folds[3], vsc_wide moment[3])
+// dphi_i/dt of bends whose nodes have velocities v, 1/ms.
+VSC_INLINE void vsc_bend_rates(const vsc_fold folds[3], const vsc_wide3 v[VSC_BEND_NODES],
+                               vsc_wide rates[3])
 {
-  vsc_wide change[3];
-  for (int i = 0; i < 3; i++) change[i] = folds[i].phi - bends->rest[i];
+  for (int i = 0; i < 3; i++) {
+    const vsc_fold *fold = &folds[i];
+    const vsc_wide3 p = v[i], edge = vsc_wide_minus(v[(i + 1) % 3], p);
+    const vsc_wide3 s = vsc_wide_minus(v[(i + 2) % 3], p), r = vsc_wide_minus(v[3 + i], p);
+    rates[i] = fold->slope * (vsc_wide_dot(fold->on_s, s) + vsc_wide_dot(fold->on_r, r) -
+                              fold->s_l * vsc_wide_dot(fold->on_s, edge) -
+                              fold->r_l * vsc_wide_dot(fold->on_r, edge));
+  }
+}
+
+// sum_j M_ij change_j
+VSC_INLINE void vsc_bend_moments(const vsc_bends *bends, const vsc_wide change[3], vsc_wide moment[3])
+{
   for (int i = 0; i < 3; i++)
     moment[i] = bends->M[i][0] * change[0] + bends->M[i][1] * change[1] + bends->M[i][2] * change[2];
 }
 
-VSC_INLINE vsc_wide vsc_bend_energy(const vsc_bends *bends, const vsc_fold folds[3])
-{
-  vsc_wide moment[3], energy = vsc_splat(0);
-  vsc_bend_moments(bends, folds, moment);
-  for (int i = 0; i < 3; i++) energy += 0.5 * moment[i] * (folds[i].phi - bends->rest[i]);
-  return energy;
-}
-
-// f = -dpsi/dx on the six nodes, mN.
-VSC_INLINE void vsc_bend_forces(const vsc_bends *bends, const vsc_fold folds[3],
-                                vsc_wide3 f[VSC_BEND_NODES])
+// sum_ij M_ij change_i change_j: twice the energy of phi - phi_0, or over the time of damping the
+// power of dphi/dt.
+VSC_INLINE vsc_wide vsc_bend_square(const vsc_bends *bends, const vsc_wide change[3])
 {
   vsc_wide moment[3];
-  vsc_bend_moments(bends, folds, moment);
+  vsc_bend_moments(bends, change, moment);
+  return moment[0] * change[0] + moment[1] * change[1] + moment[2] * change[2];
+}
+
+VSC_INLINE vsc_wide vsc_bend_energy(const vsc_bends *bends, const vsc_fold folds[3])
+{
+  vsc_wide change[3];
+  for (int i = 0; i < 3; i++) change[i] = folds[i].phi - bends->rest[i];
+  return 0.5 * vsc_bend_square(bends, change);
+}
+
+// f = -dpsi/dx on the six nodes, mN. `lead[i]` is added to phi_i: damping.
+VSC_INLINE void vsc_bend_forces(const vsc_bends *bends, const vsc_fold folds[3],
+                                const vsc_wide lead[3], vsc_wide3 f[VSC_BEND_NODES])
+{
+  vsc_wide change[3], moment[3];
+  for (int i = 0; i < 3; i++) change[i] = folds[i].phi - bends->rest[i] + lead[i];
+  vsc_bend_moments(bends, change, moment);
   for (int i = 0; i < 3; i++) f[i] = (vsc_wide3){vsc_splat(0), vsc_splat(0), vsc_splat(0)};
   for (int i = 0; i < 3; i++) {
     const vsc_fold *fold = &folds[i];

@@ -53,6 +53,7 @@ typedef struct vsc_membrane {
   vsc_sheet_moduli moduli;  // kPa
   double damping[2];        // eta_a, eta_b, kPa ms
   double bending;           // D, uJ
+  double lag;               // tau = (eta_a + eta_b)/(E_a + E_b) of bending's damping, ms
   size_t triangle_count;
   double area;  // mm^2
 } vsc_membrane;
