@@ -10,19 +10,23 @@
 
 #include "base/mem.h"
 #include "io/vtk.h"
+#include "mesh/surface.h"
 #include "tools/shapes.h"
 #include "tools/shapes_block.h"
 #include "tools/shapes_cloud.h"
+#include "tools/shapes_sheet.h"
 #include "tools/verbs.h"
 
 typedef struct wish {
-  const char *shape;  // lv, map or block
+  const char *shape;  // lv, map, block, sheet or tube
   const char *file;
   vsc_lv_shape lv;
-  vsc_block_shape block;
+  vsc_block_shape block;           // of a sheet, too: its first two numbers
+  int cell_numbers, size_numbers;  // how many were given; 0: none
+  vsc_tube_shape tube;
   vsc_block_kind element;
   bool unstructured;
-  size_t points;  // 0: the default
+  size_t points;                 // 0: the default
   double endo_angle, epi_angle;  // degrees
   double spacing;                // mm; 0: a quarter of the wall
 } wish;
@@ -30,7 +34,7 @@ typedef struct wish {
 static void print_help(void)
 {
   puts(
-      "Usage: viscera generate lv|map|block [OPTION]...\n"
+      "Usage: viscera generate lv|map|block|sheet|tube [OPTION]...\n"
       "Makes a mesh or an angle map by formulas. Lengths are mm, angles degrees.\n\n"
       "lv: a left ventricle between two half ellipsoids about z, apex at -z, cut by the plane\n"
       "z = base; node arrays endo, epi, base, rim (0 or 1), cell array region. With map: the\n"
@@ -51,16 +55,26 @@ static void print_help(void)
       "      --jitter=PART --seed=N           inner nodes moved by up to PART of a brick, 0 to 0.3 "
       "[0, 1]\n"
       "      --element=tet|hex|wedge|mixed    what becomes of the bricks [tet]\n"
-      "      --unstructured                   instead of bricks, scattered points and their Delaunay "
+      "      --unstructured                   instead of bricks, scattered points and their "
+      "Delaunay "
       "tets\n"
       "      --points=N                       how many of them [400]\n\n"
-      "  -o, --output=FILE                    [lv.vtu, lv_angles.vti, block.vtu]\n"
+      "sheet: a rectangle of triangles in the plane z = 0, from the origin; node arrays x0 x1 y0 "
+      "y1.\n"
+      "      --cells=NX,NY --size=X,Y         cells of two triangles each [20,20, 10,10]\n"
+      "      --jitter=PART --seed=N           as above\n\n"
+      "tube: the surface of a cylinder about z, from z = 0; node arrays z0 z1.\n"
+      "      --radius=R --length=L            [10, 40]\n"
+      "      --around=N --along=N             cells of two triangles each [32, 20]\n\n"
+      "  -o, --output=FILE                    [lv.vtu, lv_angles.vti, block.vtu, sheet.vtu, "
+      "tube.vtu]\n"
       "  -h, --help                           this text\n\n"
       "Examples:\n"
       "  viscera generate lv -o data/lv.vtu\n"
       "  viscera generate map --spacing 2.4 -o data/lv_angles.vti\n"
       "  viscera generate block --cells 8,4,4 --size 40,20,20 --jitter 0.2 -o block.vtu\n"
-      "  viscera generate block --unstructured --points 222 --seed 3 -o scattered.vtu");
+      "  viscera generate block --unstructured --points 222 --seed 3 -o scattered.vtu\n"
+      "  viscera generate sheet --cells 40,10 --size 80,20 -o strip.vtu");
 }
 
 enum {
@@ -83,6 +97,8 @@ enum {
   ELEMENT,
   UNSTRUCTURED,
   POINTS,
+  RADIUS,
+  LENGTH,
 };
 
 static const struct option options[] = {
@@ -105,6 +121,8 @@ static const struct option options[] = {
     {"element", required_argument, NULL, ELEMENT},
     {"unstructured", no_argument, NULL, UNSTRUCTURED},
     {"points", required_argument, NULL, POINTS},
+    {"radius", required_argument, NULL, RADIUS},
+    {"length", required_argument, NULL, LENGTH},
     {"output", required_argument, NULL, 'o'},
     {"help", no_argument, NULL, 'h'},
     {NULL, 0, NULL, 0},
@@ -151,27 +169,54 @@ static bool read_option(wish *wish, int option, const char *text)
   size_t count = 0;
   bool good;
   switch (option) {
-    case ENDO_RADIUS: return read_numbers(text, &wish->lv.endo_radius, 1);
-    case ENDO_LENGTH: return read_numbers(text, &wish->lv.endo_length, 1);
-    case EPI_RADIUS: return read_numbers(text, &wish->lv.epi_radius, 1);
-    case EPI_LENGTH: return read_numbers(text, &wish->lv.epi_length, 1);
-    case BASE: return read_numbers(text, &wish->lv.base, 1);
-    case AROUND: return read_counts(text, &wish->lv.around, 1);
-    case ALONG: return read_counts(text, &wish->lv.along, 1);
-    case LAYERS: return read_counts(text, &wish->lv.layers, 1);
-    case ENDO_ANGLE: return read_numbers(text, &wish->endo_angle, 1);
-    case EPI_ANGLE: return read_numbers(text, &wish->epi_angle, 1);
-    case SPACING: return read_numbers(text, &wish->spacing, 1) && wish->spacing > 0;
-    case CELLS: return read_counts(text, wish->block.cells, 3);
-    case SIZE: return read_numbers(text, wish->block.size, 3);
-    case JITTER: return read_numbers(text, &wish->block.jitter, 1);
+    case ENDO_RADIUS:
+      return read_numbers(text, &wish->lv.endo_radius, 1);
+    case ENDO_LENGTH:
+      return read_numbers(text, &wish->lv.endo_length, 1);
+    case EPI_RADIUS:
+      return read_numbers(text, &wish->lv.epi_radius, 1);
+    case EPI_LENGTH:
+      return read_numbers(text, &wish->lv.epi_length, 1);
+    case BASE:
+      return read_numbers(text, &wish->lv.base, 1);
+    case AROUND:
+      good = read_counts(text, &wish->lv.around, 1);
+      wish->tube.around = wish->lv.around;
+      return good;
+    case ALONG:
+      good = read_counts(text, &wish->lv.along, 1);
+      wish->tube.along = wish->lv.along;
+      return good;
+    case RADIUS:
+      return read_numbers(text, &wish->tube.radius, 1);
+    case LENGTH:
+      return read_numbers(text, &wish->tube.length, 1);
+    case LAYERS:
+      return read_counts(text, &wish->lv.layers, 1);
+    case ENDO_ANGLE:
+      return read_numbers(text, &wish->endo_angle, 1);
+    case EPI_ANGLE:
+      return read_numbers(text, &wish->epi_angle, 1);
+    case SPACING:
+      return read_numbers(text, &wish->spacing, 1) && wish->spacing > 0;
+    case CELLS:
+      wish->cell_numbers = read_counts(text, wish->block.cells, 3) ? 3 : 2;
+      return wish->cell_numbers == 3 || read_counts(text, wish->block.cells, 2);
+    case SIZE:
+      wish->size_numbers = read_numbers(text, wish->block.size, 3) ? 3 : 2;
+      return wish->size_numbers == 3 || read_numbers(text, wish->block.size, 2);
+    case JITTER:
+      return read_numbers(text, &wish->block.jitter, 1);
     case TETS:
       good = read_counts(text, &count, 1);
       wish->block.tets_per_cell = (int)count;
       return good;
-    case ELEMENT: return read_element(text, &wish->element);
-    case UNSTRUCTURED: return wish->unstructured = true;
-    case POINTS: return read_counts(text, &wish->points, 1) && wish->points > 0;
+    case ELEMENT:
+      return read_element(text, &wish->element);
+    case UNSTRUCTURED:
+      return wish->unstructured = true;
+    case POINTS:
+      return read_counts(text, &wish->points, 1) && wish->points > 0;
     default:
       good = read_counts(text, &count, 1);
       wish->block.seed = count;
@@ -251,6 +296,44 @@ static vsc_status generate_block(const wish *wish, const char *file, vsc_error *
   return status;
 }
 
+static double mesh_area(const vsc_mesh *mesh)
+{
+  const vsc_surface all = {.count = mesh->triangle_count, .triangles = mesh->triangles};
+  return vsc_surface_area(&all, mesh->nodes, 3);
+}
+
+static vsc_status finish_surface(const char *file, vsc_status status, vsc_mesh *mesh,
+                                 vsc_error *error)
+{
+  if (status == VSC_OK) status = write_mesh(file, mesh, error);
+  if (status == VSC_OK)
+    printf("%s: %zu nodes, %zu triangles, %g mm2\n", file, mesh->node_count, mesh->triangle_count,
+           mesh_area(mesh));
+  vsc_mesh_free(mesh);
+  return status;
+}
+
+static vsc_status generate_sheet(const wish *wish, const char *file, vsc_error *error)
+{
+  vsc_sheet_shape sheet = vsc_sheet_default();
+  vsc_mesh *mesh = NULL;
+  for (int a = 0; a < 2; a++) {
+    if (wish->cell_numbers > 0) sheet.cells[a] = wish->block.cells[a];
+    if (wish->size_numbers > 0) sheet.size[a] = wish->block.size[a];
+  }
+  sheet.jitter = wish->block.jitter;
+  sheet.seed = wish->block.seed;
+  const vsc_status status = vsc_sheet_mesh(&sheet, &mesh, error);
+  return finish_surface(file, status, mesh, error);
+}
+
+static vsc_status generate_tube(const wish *wish, const char *file, vsc_error *error)
+{
+  vsc_mesh *mesh = NULL;
+  const vsc_status status = vsc_tube_mesh(&wish->tube, &mesh, error);
+  return finish_surface(file, status, mesh, error);
+}
+
 static vsc_status generate(const wish *wish, vsc_error *error)
 {
   static const struct {
@@ -258,17 +341,28 @@ static vsc_status generate(const wish *wish, vsc_error *error)
     vsc_status (*make)(const struct wish *wish, const char *file, vsc_error *error);
   } shapes[] = {{"lv", "lv.vtu", generate_lv},
                 {"map", "lv_angles.vti", generate_map},
-                {"block", "block.vtu", generate_block}};
+                {"block", "block.vtu", generate_block},
+                {"sheet", "sheet.vtu", generate_sheet},
+                {"tube", "tube.vtu", generate_tube}};
+  const int numbers = strcmp(wish->shape, "sheet") == 0 ? 2 : 3;
+  if ((wish->cell_numbers > 0 && wish->cell_numbers != numbers) ||
+      (wish->size_numbers > 0 && wish->size_numbers != numbers))
+    return vsc_fail(error, VSC_INPUT, "--cells and --size of a %s want %d numbers", wish->shape,
+                    numbers);
   for (size_t k = 0; k < sizeof shapes / sizeof shapes[0]; k++)
     if (strcmp(wish->shape, shapes[k].name) == 0)
       return shapes[k].make(wish, wish->file != NULL ? wish->file : shapes[k].file, error);
-  return vsc_fail(error, VSC_INPUT, "unknown shape '%s', must be lv, map or block", wish->shape);
+  return vsc_fail(error, VSC_INPUT, "unknown shape '%s', must be lv, map, block, sheet or tube",
+                  wish->shape);
 }
 
 int vsc_verb_generate(int argc, char **argv)
 {
-  wish wish = {
-      .lv = vsc_lv_default(), .block = vsc_block_default(), .endo_angle = 60, .epi_angle = -60};
+  wish wish = {.lv = vsc_lv_default(),
+               .block = vsc_block_default(),
+               .tube = vsc_tube_default(),
+               .endo_angle = 60,
+               .epi_angle = -60};
   optind = 0;
   int option, index = 0;
   while ((option = getopt_long(argc, argv, "o:h", options, &index)) != -1) {
@@ -287,7 +381,8 @@ int vsc_verb_generate(int argc, char **argv)
   }
   if (optind + 1 != argc) {
     fprintf(stderr,
-            "viscera generate: say one shape: lv, map or block, see `viscera generate --help`\n");
+            "viscera generate: say one shape: lv, map, block, sheet or tube, see `viscera generate "
+            "--help`\n");
     return VSC_INPUT;
   }
   wish.shape = argv[optind];

@@ -399,10 +399,9 @@ static vsc_status check_block(const vsc_block_shape *block, vsc_error *error)
   return VSC_OK;
 }
 
-// A number in [-1, 1) from a counter (the mixing function of SplitMix64, Steele et al. 2014).
-static double scatter(uint64_t counter)
+double vsc_scatter(unsigned long seed, size_t number)
 {
-  uint64_t z = (counter + 1) * UINT64_C(0x9E3779B97F4A7C15);
+  uint64_t z = (seed * UINT64_C(0x100000001B3) + number + 1) * UINT64_C(0x9E3779B97F4A7C15);
   z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
   z = (z ^ (z >> 27)) * UINT64_C(0x94D049BB133111EB);
   z ^= z >> 31;
@@ -424,8 +423,7 @@ static void place_block_node(const vsc_block_shape *block, vsc_mesh *mesh, size_
     const double cells = (double)block->cells[a];
     double part = (double)index[a] / cells;
     if (inner)
-      part += block->jitter *
-              scatter(block->seed * UINT64_C(0x100000001B3) + 3 * node + (size_t)a) / cells;
+      part += block->jitter * vsc_scatter(block->seed, 3 * node + (size_t)a) / cells;
     mesh->nodes[3 * node + (size_t)a] = block->size[a] * part;
   }
 }

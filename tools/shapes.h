@@ -67,4 +67,8 @@ vsc_block_shape vsc_block_default(void);
 // `region`, 1. VSC_INPUT for an empty box or a jitter that turns a tet over. The caller owns *mesh.
 vsc_status vsc_block_mesh(const vsc_block_shape *shape, vsc_mesh **mesh, vsc_error *error);
 
+// Number `number` in [-1, 1) of the series `seed` (the mixing function of SplitMix64, Steele et al.
+// 2014).
+double vsc_scatter(unsigned long seed, size_t number);
+
 #endif

@@ -79,6 +79,11 @@ VSC_INLINE vsc_wide3 vsc_wide_add(vsc_wide3 a, vsc_wide3 b)
   return (vsc_wide3){a.x + b.x, a.y + b.y, a.z + b.z};
 }
 
+VSC_INLINE vsc_wide3 vsc_wide_minus(vsc_wide3 a, vsc_wide3 b)
+{
+  return (vsc_wide3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
 // a b + c d + e f, vectors scaled and added in this order.
 VSC_INLINE vsc_wide3 vsc_wide_combine(vsc_wide a, vsc_wide3 b, vsc_wide c, vsc_wide3 d, vsc_wide e,
                                       vsc_wide3 f)

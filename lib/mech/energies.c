@@ -18,11 +18,6 @@ static void corners_of(const vsc_model *model, const vsc_patch *patch,
     }
 }
 
-static vsc_wide3 difference(vsc_wide3 a, vsc_wide3 b)
-{
-  return (vsc_wide3){a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
 static vsc_wide length_of(vsc_wide3 a)
 {
   return vsc_wide_sqrt(vsc_wide_dot(a, a));
@@ -154,12 +149,12 @@ static vsc_pack_energies paper_cells(const vsc_model *model, const vsc_patch *pa
   }
   vsc_wide radius = vsc_splat(0);
   for (int i = 0; i < corners; i++) {
-    const vsc_wide3 d = difference(at[i], centre);
+    const vsc_wide3 d = vsc_wide_minus(at[i], centre);
     const vsc_wide length = length_of(d);
     radius += length;
     if (tets) continue;
     // the barycentre is not pulled back, so the power is that of the corner alone
-    const vsc_wide change = per_length(vsc_wide_dot(difference(speed[i], drift), d), length);
+    const vsc_wide change = per_length(vsc_wide_dot(vsc_wide_minus(speed[i], drift), d), length);
     const vsc_wide own = per_length(vsc_wide_dot(speed[i], d), length);
     sum.volume += 0.5 * paper->volume * (length - axes->radius[i]) * (length - axes->radius[i]);
     sum.dissipation += paper->volume_damping * change * own;
@@ -179,16 +174,61 @@ static vsc_pack_energies edge_springs(const vsc_model *model, const vsc_patch *p
   vsc_wide3 at[2], speed[2];
   corners_of(model, patch, pack->node, 2, x, at);
   corners_of(model, patch, pack->node, 2, v, speed);
-  const vsc_wide3 way = difference(at[0], at[1]);
+  const vsc_wide3 way = vsc_wide_minus(at[0], at[1]);
   const vsc_wide length = length_of(way), strain = length - pack->length;
-  const vsc_wide change = per_length(vsc_wide_dot(difference(speed[0], speed[1]), way), length);
+  const vsc_wide change = per_length(vsc_wide_dot(vsc_wide_minus(speed[0], speed[1]), way), length);
   return (vsc_pack_energies){.axial = 0.5 * law->stiffness * strain * strain,
                              .dissipation = law->damping * change * change};
+}
+
+// ---- membranes
+
+static vsc_pack_energies triangles(const vsc_model *model, const vsc_patch *patch, size_t k,
+                                   const double *x, const double *v)
+{
+  const vsc_triangle_pack *pack = vsc_triangles_of(model, patch) + (k - patch->first_pack);
+  const vsc_membrane *membrane = &model->membranes[patch->material];
+  vsc_wide3 at[3], speed[3], g[2], rate[2];
+  corners_of(model, patch, pack->node, 3, x, at);
+  corners_of(model, patch, pack->node, 3, v, speed);
+  for (int a = 0; a < 2; a++) {
+    g[a] = rate[a] = (vsc_wide3){vsc_splat(0), vsc_splat(0), vsc_splat(0)};
+    for (int i = 0; i < 2; i++) {
+      const vsc_wide part = pack->T[a][i];
+      g[a] = vsc_wide_add(g[a], vsc_wide_scale(part, vsc_wide_minus(at[i + 1], at[0])));
+      rate[a] = vsc_wide_add(rate[a], vsc_wide_scale(part, vsc_wide_minus(speed[i + 1], speed[0])));
+    }
+  }
+  const vsc_sheet_axes axes = vsc_sheet_axes_of(g);
+  vsc_pack_energies sum = {.membrane = pack->V * vsc_sheet_energy(&membrane->moduli, &axes)};
+  for (int a = 0; a < 2; a++) {
+    const vsc_wide change = vsc_wide_dot(rate[a], axes.u[a]);
+    sum.dissipation += membrane->damping[a] * pack->V * change * change;
+  }
+  return sum;
+}
+
+static vsc_pack_energies bends(const vsc_model *model, const vsc_patch *patch, size_t k,
+                               const double *x, const double *v)
+{
+  const vsc_bend_pack *pack = vsc_bends_of(model, patch) + (k - patch->first_pack);
+  vsc_wide3 at[VSC_BEND_NODES], speed[VSC_BEND_NODES];
+  vsc_wide rates[3];
+  vsc_fold folds[3];
+  corners_of(model, patch, pack->node, VSC_BEND_NODES, x, at);
+  corners_of(model, patch, pack->node, VSC_BEND_NODES, v, speed);
+  vsc_bend_folds(at, folds);
+  vsc_bend_rates(folds, speed, rates);
+  const double lag = model->membranes[patch->material].lag;
+  return (vsc_pack_energies){.bending = vsc_bend_energy(&pack->bends, folds),
+                             .dissipation = lag * vsc_bend_square(&pack->bends, rates)};
 }
 
 vsc_pack_energies vsc_pack_energies_of(const vsc_model *model, const vsc_patch *patch, size_t k,
                                        const double *x, const double *v)
 {
+  if (patch->family == VSC_TRIANGLES) return triangles(model, patch, k, x, v);
+  if (patch->family == VSC_BENDS) return bends(model, patch, k, x, v);
   if (patch->family == VSC_SPRINGS_ON_EDGES) return edge_springs(model, patch, k, x, v);
   switch (model->materials[patch->material].law) {
     case VSC_LAW_PAPER:

@@ -10,6 +10,8 @@ typedef struct vsc_pack_energies {
   vsc_wide axial;    // axial springs at their passive moduli, classical springs
   vsc_wide angular;  // angular springs
   vsc_wide volume;   // the elements' own volume energies (not those of node groups)
+  vsc_wide membrane;  // of membranes, in their planes
+  vsc_wide bending;   // of membranes
   vsc_wide dissipation;
 } vsc_pack_energies;
 

@@ -130,6 +130,7 @@ static void patch_volume(void *context, size_t p, int thread)
 // Whether anything in the patch resists velocity.
 static bool is_damped(const vsc_model *model, const vsc_patch *patch)
 {
+  if (vsc_patch_is_surface(patch)) return model->membranes[patch->material].lag > 0;
   const vsc_material *m = &model->materials[patch->material];
   if (patch->family == VSC_SPRINGS_ON_EDGES) return m->classical.damping > 0;
   if (m->law == VSC_LAW_PAPER)
@@ -139,6 +140,23 @@ static bool is_damped(const vsc_model *model, const vsc_patch *patch)
   for (size_t d = 0; d < m->axis_count; d++)
     if (model->axes[m->first_axis + d].damping > 0) return true;
   return false;
+}
+
+// The work of a patch of a membrane.
+static vsc_patch_work prepare_surface(const evaluation *e, const vsc_patch *patch,
+                                      const local_arrays *local, vsc_kernel_choice *choice)
+{
+  const vsc_model *model = e->model;
+  *choice = (vsc_kernel_choice){.family = patch->family,
+                                .damping = e->w != NULL && is_damped(model, patch)};
+  gather(model, patch, e->x, local->x);
+  if (choice->damping) gather(model, patch, e->w, local->w);
+  return (vsc_patch_work){.packs = model->store + patch->packs,
+                          .pack_count = patch->pack_count,
+                          .membrane = &model->membranes[patch->material],
+                          .x = local->x,
+                          .w = local->w,
+                          .f = local->f};
 }
 
 // The patch's work, with only what its kernel reads gathered.
@@ -184,7 +202,9 @@ static void patch_force(void *context, size_t p, int thread)
   const size_t count = patch->own_count + patch->shared_count;
   vsc_kernel_choice choice;
   memset(local.f, 0, 4 * count * sizeof *local.f);
-  const vsc_patch_work work = prepare(e, patch, &local, &choice);
+  const vsc_patch_work work = vsc_patch_is_surface(patch)
+                                  ? prepare_surface(e, patch, &local, &choice)
+                                  : prepare(e, patch, &local, &choice);
   vsc_patch_kernel *kernel = vsc_force_kernel(&choice);
   if (kernel != NULL) kernel(&work);
   memcpy(e->force + 4 * (size_t)patch->first_node, local.f, 4 * patch->own_count * sizeof *local.f);

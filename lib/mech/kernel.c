@@ -26,6 +26,10 @@ vsc_patch_kernel *vsc_force_kernel(const vsc_kernel_choice *choice)
   switch (choice->family) {
     case VSC_SPRINGS_ON_EDGES:
       return set->springs[choice->damping];
+    case VSC_TRIANGLES:
+      return set->triangles[choice->damping];
+    case VSC_BENDS:
+      return set->bends[choice->damping];
     default:
       return cell_kernel(set, choice);
   }

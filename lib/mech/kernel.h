@@ -12,6 +12,7 @@ typedef struct vsc_patch_work {
   const void *packs;  // of the patch's family
   size_t pack_count;
   const vsc_material *material;
+  const vsc_membrane *membrane;  // of triangles and bends
   const vsc_cell_rule *rule;    // of its cells; used by all cells but tets
   const vsc_axis *axes;         // the material's further axes and pairs
   const vsc_pair *pairs;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The text of the kernels, included by one source file per instruction set. KERNEL_SET names it.
 // Here: linear tets under law SPRINGS. Other cells are in kernel_solid.h, the laws that are there to
-// be compared with in kernel_paper.h.
+// be compared with in kernel_paper.h, membranes in kernel_surface.h.
 #include <string.h>
 
 #include "mech/kernel_common.h"
@@ -10,6 +10,7 @@
 // the tets' helpers are used by these
 #include "mech/kernel_paper.h"
 #include "mech/kernel_solid.h"
+#include "mech/kernel_surface.h"
 
 #define FORCE_KERNEL(composed, damping, active, nodal)                             \
   static void force_##composed##damping##active##nodal(const vsc_patch_work *work) \
@@ -46,5 +47,7 @@ const vsc_kernels KERNEL_SET = {
     .paper_tets = {force_paper_tets, force_damped_paper_tets},
     .paper_hexes = {force_paper_hexes, force_damped_paper_hexes},
     .springs = {force_springs, force_damped_springs},
+    .triangles = {force_triangles, force_damped_triangles},
+    .bends = {force_bends, force_damped_bends},
     .volume = volume_kernel,
 };

@@ -24,11 +24,6 @@ VSC_INLINE void scatter_corner(const uint16_t node[VSC_WIDTH], vsc_wide3 force, 
   for (int l = 0; l < VSC_WIDTH; l++) *(vsc_wide *)(forces + 4 * node[l]) += f[l];
 }
 
-VSC_INLINE vsc_wide3 vsc_wide_minus(vsc_wide3 a, vsc_wide3 b)
-{
-  return (vsc_wide3){a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
 VSC_INLINE vsc_wide3 wide_zero(void)
 {
   return (vsc_wide3){vsc_splat(0), vsc_splat(0), vsc_splat(0)};

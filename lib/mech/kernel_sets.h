@@ -12,6 +12,8 @@ typedef struct vsc_kernels {
   vsc_patch_kernel *paper_tets[2];       // [damping]
   vsc_patch_kernel *paper_hexes[2];      // [damping]
   vsc_patch_kernel *springs[2];          // classical: [damping]
+  vsc_patch_kernel *triangles[2];        // [damping]
+  vsc_patch_kernel *bends[2];            // [damping]
   vsc_patch_kernel *volume;
 } vsc_kernels;
 

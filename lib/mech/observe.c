@@ -110,6 +110,8 @@ static void observe_pack(const observation *o, const vsc_patch *patch, size_t k,
     part->axial += energies.axial[l];
     part->angular += energies.angular[l];
     part->volume_energy += energies.volume[l];
+    part->membrane += energies.membrane[l];
+    part->bending += energies.bending[l];
     part->dissipation += energies.dissipation[l];
   }
   if (vsc_patch_is_solid(patch)) observe_frames(o, patch, k, part);
@@ -140,6 +142,8 @@ static void add_part(const vsc_totals *part, vsc_totals *totals)
 {
   totals->axial += part->axial;
   totals->angular += part->angular;
+  totals->membrane += part->membrane;
+  totals->bending += part->bending;
   totals->dissipation += part->dissipation;
   totals->volume += part->volume;
   totals->volume_energy += part->volume_energy;
@@ -212,7 +216,7 @@ static double pressure_work(const vsc_model *model, const vsc_state *state, doub
 static double stored_and_kinetic(const vsc_totals *totals)
 {
   return totals->kinetic + totals->axial + totals->angular + totals->volume_energy +
-         totals->gravity_energy;
+         totals->membrane + totals->bending + totals->gravity_energy;
 }
 
 void vsc_observe(const vsc_model *model, vsc_state *state, vsc_ledger *ledger, bool resume,
@@ -231,6 +235,7 @@ void vsc_observe(const vsc_model *model, vsc_state *state, vsc_ledger *ledger, b
   else
     totals->stretch_low = totals->stretch_high = totals->stretch_mean = 1;
   if (active_volume > 0) totals->tension_mean /= active_volume;
+  if (model->element_count == 0) totals->J_low = totals->J_high = 1;
   observe_nodes(model, state, totals);
   for (size_t o = 0; o < model->obstacle_count; o++) {
     totals->contact_work += state->contact[o].work;

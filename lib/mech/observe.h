@@ -12,6 +12,8 @@ typedef struct vsc_totals {
   double axial;                  // axial springs at their passive moduli, uJ
   double angular;                // angular springs, uJ
   double volume_energy;          // all volume groups, uJ
+  double membrane;               // membranes in their planes, uJ
+  double bending;                // bending of membranes, uJ
   double gravity_energy;         // - sum m g . x, uJ, 0 at rest
   double dissipation;            // power of axial damping, uJ/ms
   double momentum[3];            // sum m v, mg mm/ms

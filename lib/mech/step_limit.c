@@ -191,6 +191,79 @@ static void add_spring_stiffness(const vsc_model *model, const vsc_patch *patch,
             model->materials[patch->material].classical.stiffness;
 }
 
+// At rest a triangle's energy is at most V (max(E, 2 G) + 2 K) |dg|^2 / 2.
+static void add_triangle_stiffness(const vsc_model *model, const vsc_patch *patch, double *stiffness)
+{
+  const vsc_sheet_moduli *law = &model->membranes[patch->material].moduli;
+  const double modulus =
+      fmax(fmax(law->axial[0], law->axial[1]), 2 * law->angular) + 2 * law->area;
+  const vsc_triangle_pack *packs = vsc_triangles_of(model, patch);
+  for (size_t k = 0; k < patch->pack_count; k++)
+    for (int i = 0; i < 3; i++) {
+      vsc_wide square = vsc_splat(0);
+      for (int a = 0; a < 2; a++) {
+        const vsc_wide *T = packs[k].T[a], B = i == 0 ? T[0] + T[1] : T[i - 1];
+        square += B * B;
+      }
+      for (int l = 0; l < VSC_WIDTH; l++)
+        stiffness[vsc_node_of(model, patch, packs[k].node[i][l])] +=
+            modulus * packs[k].V[l] * square[l];
+    }
+}
+
+// A bend's energy is at most tr(M) sum_i theta_i^2 / 2, to each edge of which all its four nodes
+// contribute.
+static void add_bend_stiffness(const vsc_model *model, const vsc_patch *patch, double *stiffness)
+{
+  const vsc_bend_pack *packs = vsc_bends_of(model, patch);
+  for (size_t k = 0; k < patch->pack_count; k++) {
+    const vsc_bend_pack *pack = &packs[k];
+    const vsc_wide most = pack->bends.M[0][0] + pack->bends.M[1][1] + pack->bends.M[2][2];
+    vsc_wide3 x[VSC_BEND_NODES];
+    vsc_fold folds[3];
+    for (int i = 0; i < VSC_BEND_NODES; i++)
+      for (int l = 0; l < VSC_WIDTH; l++) {
+        const double *at = model->rest + 4 * (size_t)vsc_node_of(model, patch, pack->node[i][l]);
+        x[i].x[l] = at[0];
+        x[i].y[l] = at[1];
+        x[i].z[l] = at[2];
+      }
+    vsc_bend_folds(x, folds);
+    for (int i = 0; i < 3; i++) {
+      const vsc_fold *fold = &folds[i];
+      const int nodes[4] = {i, (i + 1) % 3, (i + 2) % 3, 3 + i};
+      const vsc_wide3 gradient[4] = {
+          vsc_wide_add(vsc_wide_scale(fold->s_l - 1, fold->on_s), vsc_wide_scale(fold->r_l - 1, fold->on_r)),
+          vsc_wide_add(vsc_wide_scale(-fold->s_l, fold->on_s), vsc_wide_scale(-fold->r_l, fold->on_r)),
+          fold->on_s, fold->on_r};
+      const vsc_wide_mask bends = pack->bends.M[i][i] > 0;
+      for (int c = 0; c < 4; c++) {
+        const vsc_wide part = vsc_where(bends, most * vsc_wide_dot(gradient[c], gradient[c]));
+        for (int l = 0; l < VSC_WIDTH; l++)
+          stiffness[vsc_node_of(model, patch, pack->node[nodes[c]][l])] += part[l];
+      }
+    }
+  }
+}
+
+// The nodes of four parts of any patch but one of classical springs.
+static const uint16_t (*nodes_of(const vsc_model *model, const vsc_patch *patch, size_t k))[VSC_WIDTH]
+{
+  if (patch->family == VSC_TRIANGLES)
+    return vsc_triangles_of(model, patch)[k - patch->first_pack].node;
+  if (patch->family == VSC_BENDS) return vsc_bends_of(model, patch)[k - patch->first_pack].node;
+  return vsc_pack_nodes(model, patch, k);
+}
+
+// Whether a place of the pack is taken.
+static bool is_taken(const vsc_model *model, const vsc_patch *patch, size_t slot)
+{
+  const size_t k = slot / VSC_WIDTH - patch->first_pack, l = slot % VSC_WIDTH;
+  if (patch->family == VSC_TRIANGLES) return vsc_triangles_of(model, patch)[k].V[l] > 0;
+  if (patch->family == VSC_BENDS) return vsc_bends_of(model, patch)[k].node[1][l] != vsc_bends_of(model, patch)[k].node[0][l];
+  return model->mesh_element[slot] != VSC_NO_ELEMENT;
+}
+
 double vsc_limit_bound(const vsc_model *model, vsc_scratch *scratch, size_t *slot)
 {
   double *stiffness = scratch->trial, most = 0;
@@ -198,18 +271,20 @@ double vsc_limit_bound(const vsc_model *model, vsc_scratch *scratch, size_t *slo
   for (size_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];
     if (patch->family == VSC_SPRINGS_ON_EDGES) add_spring_stiffness(model, patch, stiffness);
+    if (patch->family == VSC_TRIANGLES) add_triangle_stiffness(model, patch, stiffness);
+    if (patch->family == VSC_BENDS) add_bend_stiffness(model, patch, stiffness);
     if (vsc_patch_is_solid(patch) && model->materials[patch->material].law != VSC_LAW_CLASSICAL)
       add_cell_stiffness(model, patch, stiffness);
   }
   for (size_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];
-    if (!vsc_patch_is_solid(patch)) continue;
+    if (patch->family == VSC_SPRINGS_ON_EDGES) continue;
     const size_t first = VSC_WIDTH * (size_t)patch->first_pack;
     for (size_t k = first; k < first + VSC_WIDTH * (size_t)patch->pack_count; k++) {
-      if (model->mesh_element[k] == VSC_NO_ELEMENT) continue;
+      if (!is_taken(model, patch, k)) continue;
       double sum = 0;
       for (int c = 0; c < vsc_family_corners(patch->family); c++) {
-        const uint16_t local = vsc_pack_nodes(model, patch, k / VSC_WIDTH)[c][k % VSC_WIDTH];
+        const uint16_t local = nodes_of(model, patch, k / VSC_WIDTH)[c][k % VSC_WIDTH];
         const uint32_t node = vsc_node_of(model, patch, local);
         sum += stiffness[node] / model->mass[node];
       }

@@ -179,6 +179,9 @@ static void hash_model(vsc_model *model)
     memset(&plain.curve, 0, sizeof plain.curve);
     hash = vsc_hash(hash, &plain.density, sizeof plain - offsetof(vsc_material, density));
   }
+  for (size_t m = 0; m < model->membrane_count; m++)
+    hash = vsc_hash(hash, &model->membranes[m].thickness,
+                    sizeof model->membranes[m] - offsetof(vsc_membrane, thickness));
   for (size_t p = 0; p < model->pressure_count; p++) {
     const vsc_pressure *load = &model->pressures[p];
     hash = vsc_hash(hash, load->triangles, 3 * load->triangle_count * sizeof(uint32_t));
@@ -218,15 +221,62 @@ static bool any_shares_volume(const vsc_model *model)
   return false;
 }
 
+static void copy_membrane(const vsc_membrane_def *def, const vsc_sheet *sheet,
+                          vsc_membrane *membrane)
+{
+  vsc_copy_name(membrane->name, def->name);
+  membrane->thickness = def->thickness;
+  membrane->density = def->density;
+  membrane->moduli = (vsc_sheet_moduli){.axial = {def->axial[0], def->axial[1]},
+                                        .angular = def->angular,
+                                        .area = def->area_modulus};
+  memcpy(membrane->damping, def->damping, sizeof membrane->damping);
+  membrane->bending = def->bending;
+  membrane->lag = (def->damping[0] + def->damping[1]) / (def->axial[0] + def->axial[1]);
+  membrane->triangle_count = sheet->count;
+  for (size_t k = 0; k < sheet->count; k++) membrane->area += sheet->area[k];
+}
+
+// Membranes and their sheets. "triangles" are all triangles of the file, unless a surface has that
+// name.
+static vsc_status build_membranes(const vsc_mesh *mesh, const vsc_definition *definition,
+                                  vsc_sheet *sheets, vsc_model *model, vsc_error *error)
+{
+  model->membrane_count = definition->membrane_count;
+  if (!VSC_NEW(model->membranes, model->membrane_count)) return vsc_fail_memory(error, "membranes");
+  for (size_t m = 0; m < model->membrane_count; m++) {
+    const vsc_membrane_def *def = &definition->membranes[m];
+    const vsc_surface all = {.count = mesh->triangle_count, .triangles = mesh->triangles};
+    const int named = vsc_model_find_surface(model, def->surface);
+    const vsc_surface *surface = named >= 0 ? &model->surfaces[named] : &all;
+    if (surface->count == 0)
+      return vsc_fail(error, VSC_INPUT,
+                      "membranes[%zu].surface: the mesh has no triangles; name one of the surfaces, "
+                      "or boundary",
+                      m);
+    const vsc_status status = vsc_sheet_make(mesh, surface, def, &sheets[m], error);
+    if (status != VSC_OK) return status;
+    copy_membrane(def, &sheets[m], &model->membranes[m]);
+    model->terms.damping |= def->damping[0] > 0 || def->damping[1] > 0;
+  }
+  return VSC_OK;
+}
+
 static vsc_status build_elements(const vsc_mesh *mesh, const vsc_axes *axes,
                                  const vsc_definition *definition, const uint32_t *material_of,
                                  uint8_t *mixed, vsc_model *model, vsc_error *error)
 {
   vsc_parts parts = {0};
+  vsc_sheet *sheets;
+  if (!VSC_NEW(sheets, definition->membrane_count)) return vsc_fail_memory(error, "membranes");
   vsc_status status = vsc_mixture_find(mesh, definition, material_of, mixed, error);
-  if (status == VSC_OK) status = vsc_parts_list(mesh, material_of, mixed, model, &parts, error);
+  if (status == VSC_OK) status = build_membranes(mesh, definition, sheets, model, error);
+  if (status == VSC_OK)
+    status = vsc_parts_list(mesh, material_of, mixed, sheets, model, &parts, error);
   if (status == VSC_OK) status = vsc_patches_build(mesh, axes, &parts, model, error);
   vsc_parts_free(&parts);
+  for (size_t m = 0; m < definition->membrane_count; m++) vsc_sheet_free(&sheets[m]);
+  vsc_free(sheets);
   if (status == VSC_OK) model->terms.nodal_volume = any_shares_volume(model);
   if (status == VSC_OK) status = vsc_mixture_fill(mesh, definition, model, error);
   return status;
@@ -242,6 +292,7 @@ static vsc_status build(const vsc_mesh *mesh, const vsc_axes *axes,
   model->safety = definition->safety;
   vsc_status status = assign_materials(mesh, definition, material_of, error);
   if (status == VSC_OK) status = build_materials(definition, model, error);
+  if (status == VSC_OK) status = vsc_terms_selections(mesh, definition, model, error);
   if (status == VSC_OK)
     status = build_elements(mesh, axes, definition, material_of, mixed, model, error);
   if (status != VSC_OK) return status;
@@ -250,7 +301,6 @@ static vsc_status build(const vsc_mesh *mesh, const vsc_axes *axes,
   if (status == VSC_OK) status = vsc_terms_activation(mesh, definition, model, error);
   if (status == VSC_OK) status = vsc_terms_masses(mesh, definition, material_of, model, error);
   if (status == VSC_OK) status = vsc_terms_volume_groups(model, error);
-  if (status == VSC_OK) status = vsc_terms_selections(mesh, definition, model, error);
   if (status == VSC_OK) status = vsc_terms_supports(definition, model, error);
   if (status == VSC_OK) status = vsc_terms_obstacles(mesh, definition, model, error);
   if (status == VSC_OK)

@@ -134,7 +134,8 @@ typedef struct vsc_material_def {
 // A sheet of tissue on a surface (a capsule, a valve, cloth): each triangle has two axes in its
 // plane, a along `direction` as projected into it and b across,
 //   psi = t A (E_a (|g_a|-1)^2/2 + E_b (|g_b|-1)^2/2 + G c_ab^2/2 + K (J-1)^2/2),
-// J the ratio of areas, and each edge between two triangles resists bending.
+// J the ratio of areas, and resists bending as an isotropic plate of Poisson ratio K/(E + K) does
+// (model/law_bending.h). Bending is damped as the plane is.
 typedef struct vsc_membrane_def {
   char name[VSC_NAME];
   char surface[VSC_NAME];  // one of the surfaces, "boundary", or "triangles": all that the file has

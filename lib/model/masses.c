@@ -254,6 +254,22 @@ static void lumped_masses(const vsc_mesh *mesh, const double *density, double *m
   }
 }
 
+// A third of each triangle of a membrane to each corner.
+static void add_membranes(const vsc_model *model, double *masses)
+{
+  for (size_t p = 0; p < model->patch_count; p++) {
+    const vsc_patch *patch = &model->patches[p];
+    if (patch->family != VSC_TRIANGLES) continue;
+    const double density = model->membranes[patch->material].density;
+    const vsc_triangle_pack *packs = vsc_triangles_of(model, patch);
+    for (size_t k = 0; k < patch->pack_count; k++)
+      for (int i = 0; i < 3; i++)
+        for (int l = 0; l < VSC_WIDTH; l++)
+          masses[model->mesh_node[vsc_node_of(model, patch, packs[k].node[i][l])]] +=
+              density * packs[k].V[l] / 3;
+  }
+}
+
 static vsc_status finish_masses(const vsc_mesh *mesh, const vsc_definition *definition,
                                 const double *masses, vsc_model *model, vsc_error *error)
 {
@@ -295,6 +311,7 @@ vsc_status vsc_terms_masses(const vsc_mesh *mesh, const vsc_definition *definiti
     status = vsc_voronoi_masses(mesh, density, masses, error);
   else
     lumped_masses(mesh, density, masses);
+  add_membranes(model, masses);
   if (status == VSC_OK) status = finish_masses(mesh, definition, masses, model, error);
   vsc_free(masses);
   vsc_free(density);

@@ -34,6 +34,7 @@ static void free_lists(vsc_model *model)
   for (size_t m = 0; model->materials && m < model->material_count; m++)
     vsc_curve_free(&model->materials[m].curve);
   vsc_free(model->materials);
+  vsc_free(model->membranes);
   vsc_free(model->axes);
   vsc_free(model->pairs);
   for (size_t p = 0; model->pressures && p < model->pressure_count; p++) {

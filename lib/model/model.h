@@ -14,6 +14,8 @@
 #include "mesh/select.h"
 #include "model/curve.h"
 #include "model/definition.h"
+#include "model/law_bending.h"
+#include "model/law_membrane.h"
 #include "model/stencil.h"
 
 #define VSC_NO_ELEMENT UINT32_MAX  // what an empty slot holds
@@ -26,9 +28,35 @@ typedef enum vsc_family {
   VSC_PYRAMIDS = VSC_PYRAMID,
   VSC_SPRINGS_ON_EDGES = VSC_CELLS,  // classical springs
   VSC_TRIANGLES,                     // of membranes
-  VSC_HINGES,                        // edges between two triangles of a membrane
+  VSC_BENDS,                         // a membrane's triangles with their neighbours
   VSC_FAMILIES,
 } vsc_family;
+
+// Four triangles of a membrane: g_a = sum_k T_ak (x_k - x_0). Empty places have T = 0 and V = 0.
+typedef struct vsc_triangle_pack {
+  vsc_wide T[2][2];  // 1/mm
+  vsc_wide V;        // thickness times area at rest, mm^3
+  uint16_t node[3][VSC_WIDTH];
+} vsc_triangle_pack;
+
+// Four bends (model/law_bending.h). Empty places have M = 0.
+typedef struct vsc_bend_pack {
+  vsc_bends bends;
+  uint16_t node[VSC_BEND_NODES][VSC_WIDTH];
+} vsc_bend_pack;
+
+// A sheet's numbers, as the force loop needs them.
+typedef struct vsc_membrane {
+  char name[VSC_NAME];
+  double thickness;         // mm
+  double density;           // mg/mm^3
+  vsc_sheet_moduli moduli;  // kPa
+  double damping[2];        // eta_a, eta_b, kPa ms
+  double bending;           // D, uJ
+  double lag;               // tau = (eta_a + eta_b)/(E_a + E_b) of bending's damping, ms
+  size_t triangle_count;
+  double area;  // mm^2
+} vsc_membrane;
 
 // Four classical springs: force on the first node -[k (l - r) + k_d dl/dt] u, u from the second to
 // the first.
@@ -103,7 +131,7 @@ typedef struct vsc_material {
 // ones.
 typedef struct vsc_patch {
   uint32_t family;    // a vsc_family
-  uint32_t material;  // of a membrane's triangles and hinges: the membrane
+  uint32_t material;  // of a membrane's triangles and bends: the membrane
   uint32_t first_pack, pack_count;  // packs are counted through all patches
   uint32_t first_frame;             // so are frames, where the family has some
   uint32_t first_node, own_count;   // own nodes: first_node ... first_node + own_count - 1
@@ -166,7 +194,7 @@ typedef struct vsc_model {
   // order
   uint32_t *mesh_node;  // node_count: the mesh's node of each node
   uint32_t *mesh_element;  // pack_count x 4: the mesh's element of each slot, or VSC_NO_ELEMENT (also
-                           // for springs, triangles and hinges)
+                           // for springs, triangles and bends)
 
   // elements
   unsigned char *store;   // store_size bytes: packs and law data of all patches
@@ -200,6 +228,8 @@ typedef struct vsc_model {
   vsc_terms terms;
   size_t material_count;
   vsc_material *materials;
+  size_t membrane_count;
+  vsc_membrane *membranes;
   size_t axis_count;
   vsc_axis *axes;  // further axes of all materials
   size_t pair_count;
@@ -242,8 +272,10 @@ static inline int vsc_family_frames(const vsc_model *model, uint32_t family)
 
 static inline int vsc_family_corners(uint32_t family)
 {
-  static const int others[] = {2, 3, 4};  // springs, triangles, hinges
-  return family < VSC_CELLS ? vsc_cells[family].corners : others[family - VSC_CELLS];
+  if (family == VSC_SPRINGS_ON_EDGES) return 2;
+  if (family == VSC_TRIANGLES) return 3;
+  if (family == VSC_BENDS) return VSC_BEND_NODES;
+  return vsc_cells[family].corners;
 }
 
 // Pack `k` (counted through all patches) of a patch of cells: its frames, and its nodes
@@ -263,6 +295,17 @@ static inline const uint16_t (*vsc_pack_nodes(const vsc_model *model, const vsc_
                                         vsc_family_frames(model, patch->family));
 }
 
+static inline const vsc_triangle_pack *vsc_triangles_of(const vsc_model *model,
+                                                        const vsc_patch *patch)
+{
+  return (const vsc_triangle_pack *)(model->store + patch->packs);
+}
+
+static inline const vsc_bend_pack *vsc_bends_of(const vsc_model *model, const vsc_patch *patch)
+{
+  return (const vsc_bend_pack *)(model->store + patch->packs);
+}
+
 // Law data and mixture of a pack; only where the patch has them.
 static inline const void *vsc_pack_law_data(const vsc_model *model, const vsc_patch *patch, size_t k)
 {
@@ -274,6 +317,11 @@ static inline const vsc_mixture *vsc_pack_mixture(const vsc_model *model, const 
                                                   size_t k)
 {
   return (const vsc_mixture *)(model->store + patch->mixtures) + (k - patch->first_pack);
+}
+
+static inline bool vsc_patch_is_surface(const vsc_patch *patch)
+{
+  return patch->family == VSC_TRIANGLES || patch->family == VSC_BENDS;
 }
 
 static inline bool vsc_patch_is_solid(const vsc_patch *patch)

@@ -95,6 +95,30 @@ static void fill_spring(const filling *fill, const uint32_t *node, size_t index,
   for (int i = 0; i < 2; i++) pack->node[i][lane] = (uint16_t)fill->local[node[i]];
 }
 
+static void fill_triangle(const filling *fill, const vsc_sheet *sheet, uint32_t triangle,
+                          size_t index, int lane)
+{
+  vsc_triangle_pack *pack = (vsc_triangle_pack *)at(fill, fill->patch->packs) + index;
+  const vsc_membrane *membrane = &fill->model->membranes[fill->patch->material];
+  for (int a = 0; a < 2; a++)
+    for (int k = 0; k < 2; k++) pack->T[a][k][lane] = sheet->T[triangle][a][k];
+  pack->V[lane] = membrane->thickness * sheet->area[triangle];
+  for (int i = 0; i < 3; i++)
+    pack->node[i][lane] = (uint16_t)fill->local[sheet->nodes[triangle][i]];
+}
+
+static void fill_bend(const filling *fill, const vsc_sheet *sheet, uint32_t triangle, size_t index,
+                      int lane)
+{
+  vsc_bend_pack *pack = (vsc_bend_pack *)at(fill, fill->patch->packs) + index;
+  for (int i = 0; i < 3; i++) {
+    pack->bends.rest[i][lane] = sheet->fold[triangle][i];
+    for (int j = 0; j < 3; j++) pack->bends.M[i][j][lane] = sheet->M[triangle][i][j];
+  }
+  for (int i = 0; i < VSC_BEND_NODES; i++)
+    pack->node[i][lane] = (uint16_t)fill->local[sheet->nodes[triangle][i]];
+}
+
 vsc_status vsc_patch_fill(const vsc_mesh *mesh, const vsc_axes *axes, const vsc_parts *parts,
                           const uint32_t *order, size_t count, const uint32_t *local,
                           const vsc_patch *patch, vsc_model *model, vsc_error *error)
@@ -106,6 +130,10 @@ vsc_status vsc_patch_fill(const vsc_mesh *mesh, const vsc_axes *axes, const vsc_
     if (vsc_patch_is_solid(patch)) {
       const vsc_status status = fill_cell(&fill, parts->source[part], index, lane, error);
       if (status != VSC_OK) return status;
+    } else if (patch->family == VSC_TRIANGLES) {
+      fill_triangle(&fill, &parts->sheets[patch->material], parts->source[part], index, lane);
+    } else if (patch->family == VSC_BENDS) {
+      fill_bend(&fill, &parts->sheets[patch->material], parts->source[part], index, lane);
     } else {
       fill_spring(&fill, parts->nodes + parts->start[part], index, lane);
     }

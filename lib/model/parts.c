@@ -24,22 +24,27 @@ static uint32_t group_of(uint32_t material, bool mixed, uint32_t family)
   return (2 * material + mixed) * OF_MATERIAL + family;
 }
 
+// Groups of membranes come after those of all materials: triangles, then bends of each.
+static uint32_t first_of_membranes(const vsc_parts *parts)
+{
+  return group_of((uint32_t)parts->material_count, false, 0);
+}
+
 uint32_t vsc_parts_family(const vsc_parts *parts, uint32_t group)
 {
-  (void)parts;
-  return group % OF_MATERIAL;
+  const uint32_t first = first_of_membranes(parts);
+  return group < first ? group % OF_MATERIAL : VSC_TRIANGLES + (group - first) % 2;
 }
 
 uint32_t vsc_parts_material(const vsc_parts *parts, uint32_t group)
 {
-  (void)parts;
-  return group / OF_MATERIAL / 2;
+  const uint32_t first = first_of_membranes(parts);
+  return group < first ? group / OF_MATERIAL / 2 : (group - first) / 2;
 }
 
 bool vsc_parts_mixed(const vsc_parts *parts, uint32_t group)
 {
-  (void)parts;
-  return group / OF_MATERIAL % 2 == 1;
+  return group < first_of_membranes(parts) && group / OF_MATERIAL % 2 == 1;
 }
 
 static vsc_status check_laws(const vsc_mesh *mesh, const uint32_t *material_of,
@@ -120,15 +125,30 @@ static void add_part(vsc_parts *parts, uint32_t group, uint32_t source, const ui
   parts->start[k + 1] = parts->start[k] + count;
 }
 
+static void add_sheet(vsc_parts *parts, uint32_t membrane)
+{
+  const vsc_sheet *sheet = &parts->sheets[membrane];
+  const uint32_t group = first_of_membranes(parts) + 2 * membrane;
+  for (uint32_t t = 0; t < sheet->count; t++) {
+    add_part(parts, group, t, sheet->nodes[t], 3);
+    if (sheet->M != NULL) add_part(parts, group + 1, t, sheet->nodes[t], VSC_BEND_NODES);
+  }
+}
+
 vsc_status vsc_parts_list(const vsc_mesh *mesh, const uint32_t *material_of, const uint8_t *mixed,
-                          const vsc_model *model, vsc_parts *parts, vsc_error *error)
+                          const vsc_sheet *sheets, const vsc_model *model, vsc_parts *parts,
+                          vsc_error *error)
 {
   spring_list springs = {0};
-  *parts = (vsc_parts){.material_count = model->material_count};
+  *parts = (vsc_parts){.material_count = model->material_count, .sheets = sheets};
   vsc_status status = check_laws(mesh, material_of, model, error);
   if (status == VSC_OK) status = list_springs(mesh, material_of, model, &springs, error);
-  const size_t elements = mesh->element_count, count = elements + springs.count;
-  const size_t nodes = mesh->start[elements] + 2 * springs.count;
+  const size_t elements = mesh->element_count;
+  size_t count = elements + springs.count, nodes = mesh->start[elements] + 2 * springs.count;
+  for (size_t m = 0; m < model->membrane_count; m++) {
+    count += sheets[m].count * (sheets[m].M != NULL ? 2 : 1);
+    nodes += sheets[m].count * (sheets[m].M != NULL ? 3 + VSC_BEND_NODES : 3);
+  }
   if (status == VSC_OK &&
       (!VSC_NEW(parts->group, count) || !VSC_NEW(parts->source, count) ||
        !VSC_NEW(parts->start, count + 1) || !VSC_NEW(parts->nodes, nodes)))
@@ -140,6 +160,7 @@ vsc_status vsc_parts_list(const vsc_mesh *mesh, const uint32_t *material_of, con
     for (size_t s = 0; s < springs.count; s++)
       add_part(parts, group_of(material_of[springs.items[s].element], false, VSC_SPRINGS_ON_EDGES),
                VSC_NO_ELEMENT, springs.items[s].node, 2);
+    for (uint32_t m = 0; m < model->membrane_count; m++) add_sheet(parts, m);
   }
   vsc_free(springs.items);
   return status;

@@ -169,6 +169,10 @@ static size_t pack_bytes(const vsc_model *model, uint32_t family)
   switch (family) {
     case VSC_SPRINGS_ON_EDGES:
       return sizeof(vsc_edge_pack);
+    case VSC_TRIANGLES:
+      return sizeof(vsc_triangle_pack);
+    case VSC_BENDS:
+      return sizeof(vsc_bend_pack);
     default:
       return vsc_pack_bytes(vsc_family_corners(family), vsc_family_frames(model, family));
   }
@@ -250,6 +254,12 @@ static vsc_status cut_and_fill(cutter *cut, const vsc_axes *axes, vsc_model *mod
   cut_patches(cut, cut->first_part);
   start_patches(cut, model);
   count_patches_of_nodes(cut, model->patch_count);
+  for (size_t n = 0; n < nodes; n++)
+    if (cut->patches_of[n] == 0)
+      return vsc_fail(error, VSC_INPUT,
+                      "membranes: point %u belongs to no membrane and to no element, so nothing "
+                      "holds it; give its triangles a membrane or take it out of the mesh",
+                      cut->mesh->node_source[n]);
   number_nodes(cut, model);
   list_shared(cut, model);
   const size_t slots = VSC_WIDTH * model->pack_count;

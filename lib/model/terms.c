@@ -38,7 +38,7 @@ static vsc_status fill_activation(const vsc_mesh *mesh, const vsc_definition *de
   if (status != VSC_OK) return status;
   for (size_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];
-    if (patch->material != m || !vsc_patch_is_solid(patch)) continue;
+    if (!vsc_patch_is_solid(patch) || patch->material != m) continue;
     const size_t first = VSC_WIDTH * (size_t)patch->first_pack;
     for (size_t slot = first; slot < first + VSC_WIDTH * (size_t)patch->pack_count; slot++) {
       const uint32_t tet = model->mesh_element[slot];

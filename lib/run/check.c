@@ -167,6 +167,19 @@ static void say_material(const vsc_model *model, const vsc_material *m, FILE *ou
             m->law == VSC_LAW_PAPER ? "mN/mm" : "kPa", m->rest_stretch, m->delay, m->curve.period);
 }
 
+static void say_membranes(const vsc_model *model, FILE *out)
+{
+  for (size_t k = 0; k < model->membrane_count; k++) {
+    const vsc_membrane *m = &model->membranes[k];
+    fprintf(out,
+            "membrane   %s: %zu triangles, %.4g cm2, %g mm thick, %.4g g; E_a,b %g, %g; G %g; K %g kPa; "
+            "damping %g, %g kPa ms; bending %g mN mm\n",
+            m->name, m->triangle_count, 1e-2 * m->area, m->thickness,
+            1e-3 * m->density * m->thickness * m->area, m->moduli.axial[0], m->moduli.axial[1],
+            m->moduli.angular, m->moduli.area, m->damping[0], m->damping[1], m->bending);
+  }
+}
+
 static void say_terms(const vsc_model *model, FILE *out)
 {
   fprintf(out, "terms      springs%s; volume of %s%s%s%s",
@@ -208,6 +221,32 @@ static double measure_step(const vsc_model *model, vsc_state *state)
   return passed / steps;
 }
 
+// What sits in a slot, and its centre: an element, or a triangle of a membrane.
+static void say_part(const vsc_problem *problem, size_t slot, char *what, size_t size,
+                     double centre[3])
+{
+  const vsc_model *model = problem->model;
+  if (model->mesh_element[slot] != VSC_NO_ELEMENT) {
+    vsc_mesh_element_centre(problem->mesh, model->mesh_element[slot], centre);
+    snprintf(what, size, "element %u",
+             problem->mesh->element_source[model->mesh_element[slot]]);
+    return;
+  }
+  const vsc_patch *patch = model->patches;
+  while (slot / VSC_WIDTH >= patch->first_pack + patch->pack_count) patch++;
+  const size_t k = slot / VSC_WIDTH - patch->first_pack;
+  const bool bends = patch->family == VSC_BENDS;
+  for (int d = 0; d < 3; d++) centre[d] = 0;
+  for (int i = 0; i < 3; i++) {
+    const uint16_t local = bends ? vsc_bends_of(model, patch)[k].node[i][slot % VSC_WIDTH]
+                                 : vsc_triangles_of(model, patch)[k].node[i][slot % VSC_WIDTH];
+    for (int d = 0; d < 3; d++)
+      centre[d] += model->rest[4 * (size_t)vsc_node_of(model, patch, local) + (size_t)d] / 3;
+  }
+  snprintf(what, size, "a triangle of %s%s", model->membranes[patch->material].name,
+           bends ? " (bending)" : "");
+}
+
 static void say_step(const vsc_problem *problem, vsc_state *state, FILE *out)
 {
   const vsc_model *model = problem->model;
@@ -215,14 +254,13 @@ static void say_step(const vsc_problem *problem, vsc_state *state, FILE *out)
   size_t slot = 0;
   double centre[3];
   const double bound = vsc_limit_bound(model, &state->scratch, &slot);
-  vsc_mesh_element_centre(problem->mesh, model->mesh_element[slot], centre);
+  char what[VSC_NAME + 32];
+  say_part(problem, slot, what, sizeof what, centre);
   fprintf(out,
-          "step       %.4g ms (%s); stable at rest %.4g ms with safety %g; limited most by element "
-          "%u at (%.4g, %.4g, "
-          "%.4g), whose own bound is %.4g ms\n",
-          dt, model->step > 0 ? "given" : "automatic", state->limit.step, model->safety,
-          problem->mesh->element_source[model->mesh_element[slot]], centre[0], centre[1], centre[2],
-          2 / sqrt(bound));
+          "step       %.4g ms (%s); stable at rest %.4g ms with safety %g; limited most by %s at "
+          "(%.4g, %.4g, %.4g), whose own bound is %.4g ms\n",
+          dt, model->step > 0 ? "given" : "automatic", state->limit.step, model->safety, what,
+          centre[0], centre[1], centre[2], 2 / sqrt(bound));
 }
 
 static double memory_bytes(const vsc_model *model)
@@ -258,14 +296,16 @@ vsc_status vsc_check(const vsc_problem *problem, FILE *stream, int *warnings, vs
   const vsc_model *model = problem->model;
   fprintf(stream, "scene      %s\n", problem->scene->file);
   say_mesh(problem, stream);
-  vsc_status status = say_quality(problem, stream, error);
+  vsc_status status =
+      problem->mesh->element_count > 0 ? say_quality(problem, stream, error) : VSC_OK;
   if (status != VSC_OK) return status;
   for (size_t s = 0; s < model->surface_count; s++)
     say_surface(problem, &model->surfaces[s], stream);
   say_supports(problem, stream);
-  say_fibers(problem, stream);
+  if (problem->mesh->element_count > 0) say_fibers(problem, stream);
   say_vessels(problem, stream);
   for (size_t m = 0; m < model->material_count; m++) say_material(model, &model->materials[m], stream);
+  say_membranes(model, stream);
   say_terms(model, stream);
   vsc_state *state;
   status = vsc_state_create(model, &state, error);

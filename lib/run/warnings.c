@@ -102,6 +102,18 @@ static void warn_vessels(writer *w, const vsc_problem *problem)
   }
 }
 
+static void warn_membranes(writer *w, const vsc_problem *problem)
+{
+  const vsc_model *model = problem->model;
+  for (size_t k = 0; k < model->membrane_count; k++) {
+    const vsc_membrane *m = &model->membranes[k];
+    if (m->moduli.angular == 0)
+      warn(w, "membrane %s: without an angular modulus it shears freely in its plane", m->name);
+    if (m->bending == 0 && model->element_count == 0)
+      warn(w, "membrane %s: without bending it folds freely; E t^3/12 is a plate's", m->name);
+  }
+}
+
 static void warn_fibers(writer *w, const vsc_problem *problem)
 {
   const vsc_fiber_report *f = &problem->fibers;
@@ -153,6 +165,7 @@ int vsc_check_warnings(const vsc_problem *problem, FILE *stream, const char *pre
   writer w = {stream, prefix, 0};
   for (size_t m = 0; m < problem->model->material_count; m++)
     warn_material(&w, problem, m);
+  warn_membranes(&w, problem);
   warn_fibers(&w, problem);
   warn_vessels(&w, problem);
   warn_setting(&w, problem);

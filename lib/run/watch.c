@@ -21,7 +21,7 @@ static void put(vsc_watch *watch, const char *unit, double value, const char *na
   watch->values[k] = value;
 }
 
-static void put_energies(vsc_watch *watch)
+static void put_energies(const vsc_model *model, vsc_watch *watch)
 {
   const vsc_totals *t = &watch->totals;
   const vsc_ledger *ledger = watch->ledger;
@@ -29,6 +29,10 @@ static void put_energies(vsc_watch *watch)
   put(watch, "mJ", MJ * t->axial, "energy_axial", "");
   put(watch, "mJ", MJ * t->angular, "energy_angular", "");
   put(watch, "mJ", MJ * t->volume_energy, "energy_volume", "");
+  if (model->membrane_count > 0) {
+    put(watch, "mJ", MJ * t->membrane, "energy_membrane", "");
+    put(watch, "mJ", MJ * t->bending, "energy_bending", "");
+  }
   put(watch, "mJ", MJ * t->gravity_energy, "energy_gravity", "");
   put(watch, "mJ", MJ * ledger->active, "work_active", "");
   put(watch, "mJ", MJ * ledger->pressure, "work_pressure", "");
@@ -99,7 +103,7 @@ static void make_row(const vsc_problem *problem, vsc_state *state, vsc_watch *wa
     put(watch, "1", t->group_high, "J_node_max", "");
   }
   put(watch, "1", t->inverted, "inverted_elements", "");
-  put_energies(watch);
+  put_energies(model, watch);
   put_contact(model, state, watch);
   put_kept(model, state, watch);
   for (int i = 0; i < 3; i++) put(watch, "mg m/s", t->momentum[i], "momentum_", axis[i]);
