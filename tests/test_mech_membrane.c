@@ -299,7 +299,7 @@ static void the_bound_is_a_bound(void **state)
       const double bound = vsc_limit_bound(body.model, &body.state->scratch, &slot);
       assert_true(slot < VSC_WIDTH * body.model->pack_count);
       assert_true(bound >= body.state->limit.eigenvalue);
-      assert_true(bound < 20 * body.state->limit.eigenvalue);
+      assert_true(bound < 10 * body.state->limit.eigenvalue);
       body_close(&body);
     }
 }
