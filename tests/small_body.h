@@ -101,7 +101,9 @@ static inline void body_start(small_body *body)
 
 static inline void body_steps(small_body *body, double dt, size_t count)
 {
-  vsc_steps(body->model, body->state, dt, (double)count);
+  vsc_error error;
+  if (vsc_steps(body->model, body->state, dt, (double)count, &error) != VSC_OK)
+    fail_msg("%s", error.text);
 }
 
 // The model's number of the mesh's node.

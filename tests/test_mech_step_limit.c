@@ -278,7 +278,7 @@ static void shake_and_step(random_body *body, double dt, size_t count)
   uint64_t seed = 404;
   for (size_t i = 0; i < 4 * model->node_count; i++)
     body->state->v[i] = model->inverse_mass[i] > 0 ? random_between(&seed, -1e-8, 1e-8) : 0;
-  vsc_steps(model, body->state, dt, (double)count);
+  vsc_steps(model, body->state, dt, (double)count, NULL);
 }
 
 // Passive scenes at rest. Above the limit the fastest mode grows: with (omega dt)^2 = 4.84 by 2.43

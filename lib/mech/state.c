@@ -27,7 +27,10 @@ static bool allocate(const vsc_model *model, vsc_state *state)
          VSC_NEW(scratch->predicted, model->terms.damping ? 4 * n : 0) &&
          VSC_NEW(scratch->trial, 3 * 4 * n) && VSC_NEW(state->contact, model->obstacle_count + 1) &&
          VSC_NEW(state->contact_count, model->obstacle_count > 0 ? n : 0) &&
-         VSC_NEW(state->contact_normal, model->obstacle_count > 0 ? 4 * n : 0);
+         VSC_NEW(state->contact_normal, model->obstacle_count > 0 ? 4 * n : 4) &&
+         VSC_NEW(state->former, model->obstacle_count > 0 ? 4 * n : 4) &&
+         VSC_NEW(state->pending, model->obstacle_count > 0 ? 4 * n : 4) &&
+         VSC_NEW(state->kept_pressure, model->kept.count);
 }
 
 vsc_status vsc_state_create(const vsc_model *model, vsc_state **state, vsc_error *error)
@@ -53,6 +56,10 @@ void vsc_state_free(vsc_state *state)
   vsc_free(state->contact);
   vsc_free(state->contact_count);
   vsc_free(state->contact_normal);
+  vsc_free(state->former);
+  vsc_free(state->pending);
+  vsc_free(state->kept_pressure);
+  if (state->keeper != NULL) state->release_keeper(state->keeper);
   vsc_free(state->limit.mode);
   vsc_free(state->scratch.local);
   vsc_free(state->scratch.partial);

@@ -51,7 +51,15 @@ typedef struct vsc_state {
   vsc_contact_sums *contact;  // obstacle_count + 1 (the last is not used); owned
   uint8_t *contact_count;     // node_count: obstacles that the node touched in the last step; only
                               // with obstacles, owned
-  double *contact_normal;     // node_count x 4: the free part of the last one's normal; likewise
+  double *former;             // node_count x 4: velocities in the middle of the last step; likewise (1
+                              // x 4 without obstacles)
+  double *pending;            // node_count x 4: impulses of contact whose work is not counted yet,
+                              // mN ms; likewise
+  double *contact_normal;     // node_count x 4: the free part of the last one's normal, and
+                              // its number; likewise
+  double *kept_pressure;  // kept.count: multiplier of each kept volume in the last step, kPa; owned
+  void *keeper;           // what keeps them (solve/keep_volume.c), made when first needed
+  void (*release_keeper)(void *keeper);
   vsc_limit limit;
   vsc_scratch scratch;
 } vsc_state;

@@ -194,6 +194,7 @@ static void hash_model(vsc_model *model)
     hash = vsc_hash(hash, &obstacle->curve.hash, sizeof obstacle->curve.hash);
     hash = vsc_hash(hash, obstacle->nodes, obstacle->node_count * sizeof *obstacle->nodes);
   }
+  hash = vsc_hash(hash, &model->kept.kind, sizeof model->kept.kind);
   hash = vsc_hash(hash, model->axes, model->axis_count * sizeof *model->axes);
   hash = vsc_hash(hash, model->pairs, model->pair_count * sizeof *model->pairs);
   hash = vsc_hash(hash, model->gravity, sizeof model->gravity);
@@ -302,6 +303,8 @@ static vsc_status build(const vsc_mesh *mesh, const vsc_axes *axes,
   if (status == VSC_OK) status = vsc_terms_volume_groups(model, error);
   if (status == VSC_OK) status = vsc_terms_supports(definition, model, error);
   if (status == VSC_OK) status = vsc_terms_obstacles(mesh, definition, model, error);
+  if (status == VSC_OK)
+    status = vsc_terms_kept_volumes(mesh, definition, material_of, model, error);
   if (status == VSC_OK) status = vsc_terms_loads(definition, model, error);
   if (status == VSC_OK) hash_model(model);
   return status;

@@ -47,6 +47,11 @@ static void free_lists(vsc_model *model)
     vsc_curve_free(&model->obstacles[o].curve);
   }
   vsc_free(model->obstacles);
+  vsc_free(model->kept.start);
+  vsc_free(model->kept.triangles);
+  vsc_free(model->kept.weights);
+  vsc_free(model->kept.rest);
+  vsc_free(model->kept.source);
   for (size_t s = 0; model->surfaces && s < model->surface_count; s++)
     vsc_surface_free(&model->surfaces[s]);
   vsc_free(model->surfaces);

@@ -166,6 +166,18 @@ typedef struct vsc_obstacle {
   uint32_t *nodes;    // owned
 } vsc_obstacle;
 
+// Volumes that multipliers keep: volume k is the flux through triangles start[k] .. start[k + 1] - 1,
+//   v_k = sum_t weight_t (a x b) . c / 6 of their corners a, b, c.
+typedef struct vsc_kept_volumes {
+  vsc_kept_volume kind;
+  size_t count;               // 0: none are kept
+  size_t *start;              // count + 1; owned
+  uint32_t *triangles;        // x 3 nodes; owned
+  double *weights;            // 1, or parts of it; owned
+  double *rest;               // V_k, mm^3; owned
+  uint32_t *source;           // REGION: the material; NODE, ELEMENT: the mesh's number; owned
+} vsc_kept_volumes;
+
 // Which force terms this scene has; what is absent is not in the loop.
 typedef struct vsc_terms {
   bool damping;
@@ -226,6 +238,7 @@ typedef struct vsc_model {
   vsc_pressure *pressures;
   size_t obstacle_count;
   vsc_obstacle *obstacles;
+  vsc_kept_volumes kept;
   double gravity[3];     // mm/ms^2
   size_t surface_count;  // the named surfaces, with the mesh's node numbers
   vsc_surface *surfaces;
@@ -339,6 +352,9 @@ int vsc_model_find_surface(const vsc_model *model, const char *name);
 
 // Pressure of load `p` at `time`, kPa.
 double vsc_model_pressure(const vsc_model *model, size_t p, double time);
+
+// Kept volume k at positions x (node_count x 4), mm^3.
+double vsc_kept_volume_of(const vsc_model *model, size_t k, const double *x);
 
 // Where an obstacle is at `time`: its point or centre, mm.
 void vsc_obstacle_place(const vsc_obstacle *obstacle, double time, double point[3]);

@@ -5,6 +5,7 @@
 #define VSC_MODEL_TERMS_H
 
 #include "mesh/mesh.h"
+#include "mesh/topology.h"
 #include "model/model.h"
 
 // The numbers of the tet array `name`, or NULL for an empty name. A missing array, or one of vectors, is
@@ -30,6 +31,11 @@ vsc_status vsc_terms_selections(const vsc_mesh *mesh, const vsc_definition *defi
 
 // Held directions: inverse mass 0.
 vsc_status vsc_terms_supports(const vsc_definition *definition, vsc_model *model, vsc_error *error);
+
+// Volumes to be kept (kept_volume.c), after supports: those that cannot change are left out. VSC_INPUT
+// for more of them than ways to move.
+vsc_status vsc_terms_kept_volumes(const vsc_mesh *mesh, const vsc_definition *definition,
+                                  const uint32_t *material_of, vsc_model *model, vsc_error *error);
 
 // Obstacles (obstacles.c). VSC_INPUT for a node that begins inside one.
 vsc_status vsc_terms_obstacles(const vsc_mesh *mesh, const vsc_definition *definition,

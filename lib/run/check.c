@@ -193,6 +193,10 @@ static void say_terms(const vsc_model *model, FILE *out)
             model->pressures[p].peak * vsc_curve_peak(&model->pressures[p].curve),
             model->pressures[p].triangle_count);
   fputc('\n', out);
+  static const char *const kept[] = {"", "the whole body", "each material", "each node", "each element"};
+  if (model->kept.count > 0)
+    fprintf(out, "kept       volume of %s, %zu in all, by multipliers\n", kept[model->kept.kind],
+            model->kept.count);
   for (size_t o = 0; o < model->obstacle_count; o++) {
     const vsc_obstacle *it = &model->obstacles[o];
     fprintf(out, "obstacle   %zu: %s at (%g, %g, %g)", o,
@@ -210,7 +214,7 @@ static double measure_step(const vsc_model *model, vsc_state *state)
   const double start = vsc_wall_seconds();
   double steps = 0, passed = 0;
   while (passed < 0.2 && steps < 1000) {
-    vsc_steps(model, state, dt, 1);
+    vsc_steps(model, state, dt, 1, NULL);
     steps++;
     passed = vsc_wall_seconds() - start;
   }

@@ -6,7 +6,7 @@
 #include "run/job.h"
 
 // Scalars of a checkpoint, in the order of list_scalars.
-enum { CLOCK = 0, LIMIT = 2, WORKS = 8, WATCH = 13, SCALARS = 17, BLOCKS = 10 };
+enum { CLOCK = 0, LIMIT = 2, WORKS = 8, WATCH = 13, SCALARS = 17, BLOCKS = 13 };
 
 static void list_scalars(vsc_job *job, double *places[SCALARS])
 {
@@ -38,6 +38,13 @@ static void put_scalars(vsc_job *job, const double scalars[SCALARS])
   for (int k = 0; k < SCALARS; k++) *places[k] = scalars[k];
 }
 
+// Nodes with a memory of contact; without obstacles one that is not used.
+static size_t contact_nodes(const vsc_job *job)
+{
+  const vsc_model *model = job->problem->model;
+  return model->obstacle_count > 0 ? model->node_count : 1;
+}
+
 static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[BLOCKS])
 {
   vsc_state *state = job->state;
@@ -49,6 +56,9 @@ static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[
       {"stiffest_mode", "1", nodes, 4, state->limit.mode},
       {"contact", "mN ms, uJ, uJ, mN ms, ms", job->problem->model->obstacle_count + 1,
        sizeof *state->contact / sizeof(double), (double *)state->contact},
+      {"middle_velocity", "mm/ms", contact_nodes(job), 4, state->former},
+      {"contact_impulse", "mN ms", contact_nodes(job), 4, state->pending},
+      {"contact_normal", "1", contact_nodes(job), 4, state->contact_normal},
       {"time_and_steps", "ms, 1", LIMIT - CLOCK, 1, scalars + CLOCK},
       {"step_limit", "1/ms^2, ms, ms, ms, 1, ms", WORKS - LIMIT, 1, scalars + LIMIT},
       {"works", "uJ, uJ, uJ, uJ, 1", WATCH - WORKS, 1, scalars + WORKS},
@@ -93,11 +103,23 @@ static void list_arrays(vsc_job *job, double *arrays[4])
   memcpy(arrays, list, sizeof list);
 }
 
-// Numbers of all contact sums.
+// Numbers of all contact sums, and of what nodes remember of contact.
 static size_t contact_size(const vsc_job *job)
 {
   const size_t numbers = sizeof *job->state->contact / sizeof(double);
-  return (job->problem->model->obstacle_count + 1) * numbers;
+  return (job->problem->model->obstacle_count + 1) * numbers + 12 * contact_nodes(job);
+}
+
+// Copies what belongs to contact to `memory`, or back from it.
+static void copy_contact(vsc_job *job, double *memory, bool back)
+{
+  vsc_state *state = job->state;
+  const size_t nodes = 4 * contact_nodes(job);
+  double *const arrays[4] = {state->former, state->pending, state->contact_normal,
+                             (double *)state->contact};
+  const size_t counts[4] = {nodes, nodes, nodes, contact_size(job) - 3 * nodes};
+  for (int k = 0; k < 4; memory += counts[k++])
+    memcpy(back ? arrays[k] : memory, back ? memory : arrays[k], counts[k] * sizeof *memory);
 }
 
 vsc_status vsc_job_make_good(vsc_job *job, vsc_error *error)
@@ -115,7 +137,7 @@ void vsc_job_keep_good(vsc_job *job)
   take_scalars(job, job->good);
   for (size_t k = 0; k < 4; k++)
     memcpy(job->good + SCALARS + k * count, arrays[k], count * sizeof(double));
-  memcpy(job->good + SCALARS + 4 * count, job->state->contact, contact_size(job) * sizeof(double));
+  copy_contact(job, job->good + SCALARS + 4 * count, false);
 }
 
 void vsc_job_go_back(vsc_job *job)
@@ -128,5 +150,5 @@ void vsc_job_go_back(vsc_job *job)
   job->watch->rows = rows;  // what is written stays written
   for (size_t k = 0; k < 4; k++)
     memcpy(arrays[k], job->good + SCALARS + k * count, count * sizeof(double));
-  memcpy(job->state->contact, job->good + SCALARS + 4 * count, contact_size(job) * sizeof(double));
+  copy_contact(job, job->good + SCALARS + 4 * count, true);
 }

@@ -57,6 +57,25 @@ static void put_contact(const vsc_model *model, const vsc_state *state, vsc_watc
   put(watch, "mJ", MJ * watch->totals.contact_lost, "lost_contact", "");
 }
 
+enum { MOST_KEPT_NAMED = 16 };
+
+// How far kept volumes are off, and the pressure of the multipliers of the body or its regions.
+static void put_kept(const vsc_model *model, const vsc_state *state, vsc_watch *watch)
+{
+  const vsc_kept_volumes *kept = &model->kept;
+  double most = 0;
+  if (kept->count == 0) return;
+  for (size_t k = 0; k < kept->count; k++)
+    most = fmax(most, fabs(vsc_kept_volume_of(model, k, state->x) / kept->rest[k] - 1));
+  put(watch, "1", most, "kept_volume_error", "");
+  for (size_t k = 0; k < kept->count && k < MOST_KEPT_NAMED; k++) {
+    if (kept->kind == VSC_KEEP_TOTAL) put(watch, "kPa", state->kept_pressure[k], "pressure_kept", "");
+    if (kept->kind == VSC_KEEP_REGION)
+      put(watch, "kPa", state->kept_pressure[k], "pressure_kept_",
+          model->materials[kept->source[k]].name);
+  }
+}
+
 static void make_row(const vsc_problem *problem, vsc_state *state, vsc_watch *watch)
 {
   static const char *const axis[3] = {"x", "y", "z"};
@@ -86,6 +105,7 @@ static void make_row(const vsc_problem *problem, vsc_state *state, vsc_watch *wa
   put(watch, "1", t->inverted, "inverted_elements", "");
   put_energies(model, watch);
   put_contact(model, state, watch);
+  put_kept(model, state, watch);
   for (int i = 0; i < 3; i++) put(watch, "mg m/s", t->momentum[i], "momentum_", axis[i]);
   for (int i = 0; i < 3; i++)
     put(watch, "mg mm m/s", t->angular_momentum[i], "angular_momentum_", axis[i]);

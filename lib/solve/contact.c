@@ -54,20 +54,16 @@ static double stop(const pusher *p, const double way[3], double v[3])
   return inward;
 }
 
-// J = m (v' - v): its sum, the obstacle's work J . speed, and what is lost, J . speed - J . (v_0 + v')/2
-// with the velocity v_0 = v - kick before the step's own forces.
-static void count_impulse(const vsc_model *model, uint32_t node, const double before[3],
-                          const double after[3], const double kick[3], const pusher *p)
+// J = m (v' - v) of one node.
+static void count_impulse(const vsc_model *model, vsc_state *state, uint32_t node,
+                          const double before[3], const double after[3], const pusher *p)
 {
-  double work = 0, pushed = 0;
   for (int i = 0; i < 3; i++) {
     const double impulse = model->mass[node] * (after[i] - before[i]);
+    state->pending[4 * (size_t)node + i] += impulse;
     p->sums->impulse[i] += impulse;
-    pushed += impulse * p->speed[i];
-    work += impulse * 0.5 * (before[i] - kick[i] + after[i]);
+    p->sums->work += impulse * p->speed[i];
   }
-  p->sums->work += pushed;
-  p->sums->lost += pushed - work;
 }
 
 static bool put_back(const vsc_model *model, vsc_state *state, uint32_t node, double dt,
@@ -103,11 +99,11 @@ static bool put_back(const vsc_model *model, vsc_state *state, uint32_t node, do
     stop(p, way, predicted);
     if (stuck) rub(model, node, p, way, INFINITY, predicted);
   }
-  double kick[3];
-  for (int i = 0; i < 3; i++) kick[i] = dt * state->a[4 * (size_t)node + i];
-  count_impulse(model, node, before, v, kick, p);
+  count_impulse(model, state, node, before, v, p);
   state->contact_count[node]++;
-  memcpy(state->contact_normal + 4 * (size_t)node, way, sizeof way);
+  double *kept = state->contact_normal + 4 * (size_t)node;
+  memcpy(kept, way, sizeof way);
+  kept[3] = (double)(p->obstacle - model->obstacles);
   return true;
 }
 
@@ -138,9 +134,34 @@ size_t vsc_contact_resolve(const vsc_model *model, vsc_state *state, double dt, 
   return all;
 }
 
+void vsc_contact_load(const vsc_model *model, vsc_state *state, uint32_t node,
+                      const double impulse[3], double dt)
+{
+  const pusher p = pusher_of(model, state, (size_t)state->contact_normal[4 * (size_t)node + 3], dt);
+  for (int i = 0; i < 3; i++) {
+    state->pending[4 * (size_t)node + i] += impulse[i];
+    p.sums->impulse[i] += impulse[i];
+    p.sums->work += impulse[i] * p.speed[i];
+  }
+}
+
+void vsc_contact_account(const vsc_model *model, vsc_state *state, double dt)
+{
+  for (size_t n = 0; n < model->node_count; n++) {
+    double *impulse = state->pending + 4 * n, *former = state->former + 4 * n;
+    const double *v = state->v + 4 * n;
+    if (impulse[0] != 0 || impulse[1] != 0 || impulse[2] != 0) {
+      const pusher p = pusher_of(model, state, (size_t)state->contact_normal[4 * n + 3], dt);
+      for (int i = 0; i < 3; i++)
+        p.sums->lost += impulse[i] * (p.speed[i] - 0.5 * (former[i] + v[i]));
+      memset(impulse, 0, 3 * sizeof *impulse);
+    }
+    memcpy(former, v, 3 * sizeof *former);
+  }
+}
+
 void vsc_contact_settle(const vsc_model *model, vsc_state *state, double dt)
 {
-  static const double no_kick[3] = {0};
   for (size_t o = 0; o < model->obstacle_count; o++) {
     const pusher p = pusher_of(model, state, o, dt);
     for (size_t k = 0; k < p.obstacle->node_count; k++) {
@@ -154,7 +175,7 @@ void vsc_contact_settle(const vsc_model *model, vsc_state *state, double dt)
       memcpy(before, v, sizeof before);
       const double inward = stop(&p, way, v);
       if (p.obstacle->friction > 0) rub(model, node, &p, way, p.obstacle->friction * inward, v);
-      count_impulse(model, node, before, v, no_kick, &p);
+      count_impulse(model, state, node, before, v, &p);
     }
   }
 }

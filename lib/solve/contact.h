@@ -13,14 +13,23 @@
 //   v_t <- v_t max(0, 1 - friction d / (dt |v_t|)),  x follows.
 // That is the impulse form of Coulomb's law: tangential impulse <= friction x normal impulse. Held
 // directions do not move. Between several obstacles it goes round until no node is inside any, or 8
-// times. Impulses and work go to the state's contact sums: the impulse J on a node works
-// J . (v before + v after)/2, v before being the middle velocity of the last step, which is how
-// Stoermer-Verlet itself counts the work of forces.
+// times. Impulses go to the state's contact sums.
 //
 // state->contact_count (node_count) counts the obstacles that a node touches in this step, and
-// state->contact_normal (node_count x 4) holds the normal of the last; `fresh` clears both first.
+// state->contact_normal (node_count x 4) holds the normal of the last and its number; `fresh` forgets
+// them first.
 // Returns the number of nodes that were put back.
 size_t vsc_contact_resolve(const vsc_model *model, vsc_state *state, double dt, bool fresh);
+
+// Adds an impulse (mN ms) with which an obstacle holds a node that it touches against the multipliers of
+// kept volumes.
+void vsc_contact_load(const vsc_model *model, vsc_state *state, uint32_t node,
+                      const double impulse[3], double dt);
+
+// To be called when the positions of a step are settled: the impulse J on a node works J . (v_0 + v)/2
+// with the middle velocities v_0 of the step before and v of this one, which is how Stoermer-Verlet
+// itself counts the work of forces; what of the obstacle's J . speed is not found there is lost.
+void vsc_contact_account(const vsc_model *model, vsc_state *state, double dt);
 
 // To be called when a row of steps of dt has ended and velocities are those of its end: nodes that
 // touched an obstacle in the last step lose the velocity that leads into it, and friction takes its

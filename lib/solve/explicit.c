@@ -2,11 +2,13 @@
 #include "solve/explicit.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/parallel.h"
 #include "mech/force.h"
 #include "mech/step_limit.h"
 #include "solve/contact.h"
+#include "solve/keep_volume.h"
 
 // The step is re-estimated at intervals between these, ms: twice as late while the eigenvalue stays
 // within 2 %, twice as soon when it moved by more than 10 %.
@@ -70,15 +72,30 @@ static void kick_and_drift(void *context, size_t piece, int thread)
 {
   (void)thread;
   const motion *m = context;
-  const bool keep = m->model->obstacle_count > 0;  // contact counts work with the acceleration
-  for (size_t n = piece * NODES_PER_PIECE; n < piece_end(m, piece); n++) {
-    const vsc_wide a = kick_node(m, n);
-    if (keep) ((vsc_wide *)m->state->a)[n] = a;
-    drift_node(m, n, a);
-  }
+  for (size_t n = piece * NODES_PER_PIECE; n < piece_end(m, piece); n++)
+    drift_node(m, n, kick_node(m, n));
 }
 
-void vsc_steps(const vsc_model *model, vsc_state *state, double dt, double count)
+// Puts nodes out of obstacles and volumes back to what they were, in turns, since each may disturb the
+// other. `first`: of a row of steps.
+static vsc_status restrain(const vsc_model *model, vsc_state *state, double dt, bool first,
+                           vsc_error *error)
+{
+  enum { MOST_TURNS = 20 };
+  if (model->obstacle_count > 0) vsc_contact_resolve(model, state, dt, true);
+  if (model->kept.count == 0) return VSC_OK;
+  memset(state->kept_pressure, 0, model->kept.count * sizeof *state->kept_pressure);
+  for (int turn = 0; turn < MOST_TURNS; turn++) {
+    const vsc_status status = vsc_keep_volume(model, state, dt, first && turn == 0, error);
+    if (status != VSC_OK) return status;
+    if (model->obstacle_count == 0 || vsc_contact_resolve(model, state, dt, false) == 0)
+      return VSC_OK;
+  }
+  return VSC_OK;
+}
+
+vsc_status vsc_steps(const vsc_model *model, vsc_state *state, double dt, double count,
+                     vsc_error *error)
 {
   motion m = {model, state, dt};
   const size_t pieces = (model->node_count + NODES_PER_PIECE - 1) / NODES_PER_PIECE;
@@ -87,11 +104,14 @@ void vsc_steps(const vsc_model *model, vsc_state *state, double dt, double count
   for (double k = 1; k <= count; k++) {
     state->time += dt;
     state->steps++;
-    if (model->obstacle_count > 0) vsc_contact_resolve(model, state, dt, true);
+    const vsc_status status = restrain(model, state, dt, k == 1, error);
+    if (status != VSC_OK) return status;
+    if (model->obstacle_count > 0) vsc_contact_account(model, state, dt);
     vsc_force(model, state->x, velocity, state->time, &state->scratch, state->force);
     vsc_parallel_for(pieces, k < count ? kick_and_drift : kick, &m);
   }
   if (model->obstacle_count > 0) vsc_contact_settle(model, state, dt);
+  return model->kept.count > 0 ? vsc_keep_volume_settle(model, state, error) : VSC_OK;
 }
 
 // The time at which the most is active, for the estimate before the first step.
@@ -174,21 +194,24 @@ static vsc_status check_finite(const vsc_model *model, const vsc_state *state, v
 }
 
 // Steps on to `stop` in equal steps not longer than the stable one.
-static void step_to(const vsc_model *model, vsc_state *state, double stop)
+static vsc_status step_to(const vsc_model *model, vsc_state *state, double stop, vsc_error *error)
 {
   const double start = state->time;
   const double steps = fmax(ceil((stop - start) / state->limit.step * (1 - 1e-12)), 1);
-  vsc_steps(model, state, (stop - start) / steps, steps);
-  state->time = stop;
+  const vsc_status status = vsc_steps(model, state, (stop - start) / steps, steps, error);
+  if (status == VSC_OK) state->time = stop;
+  return status;
 }
 
 // Steps of the user's length, counted from time 0, to the first that is not before `stop`.
-static void fixed_steps_to(const vsc_model *model, vsc_state *state, double stop)
+static vsc_status fixed_steps_to(const vsc_model *model, vsc_state *state, double stop,
+                                 vsc_error *error)
 {
   const double done = round(state->time / model->step);
   const double steps = fmax(ceil(stop / model->step * (1 - 1e-12)) - done, 1);
-  vsc_steps(model, state, model->step, steps);
-  state->time = (done + steps) * model->step;
+  const vsc_status status = vsc_steps(model, state, model->step, steps, error);
+  if (status == VSC_OK) state->time = (done + steps) * model->step;
+  return status;
 }
 
 vsc_status vsc_advance(const vsc_model *model, vsc_state *state, double until, vsc_error *error)
@@ -199,11 +222,9 @@ vsc_status vsc_advance(const vsc_model *model, vsc_state *state, double until, v
       if (status != VSC_OK) return status;
     }
     const double stop = fmin(until, state->limit.time + state->limit.interval);
-    if (model->step > 0)
-      fixed_steps_to(model, state, stop);
-    else
-      step_to(model, state, stop);
-    const vsc_status status = check_finite(model, state, error);
+    vsc_status status = model->step > 0 ? fixed_steps_to(model, state, stop, error)
+                                        : step_to(model, state, stop, error);
+    if (status == VSC_OK) status = check_finite(model, state, error);
     if (status != VSC_OK) return status;
   }
   return VSC_OK;

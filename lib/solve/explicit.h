@@ -12,10 +12,12 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
 
 // `count` (at least 1) steps of length dt (ms), each
 //   v <- v + dt/2 a;  x <- x + dt v;  a <- f(x, v + dt/2 a, t + dt) / m;  v <- v + dt/2 a.
-// After the drift nodes are put out of obstacles (contact.h).
+// After the drift nodes are put out of obstacles (contact.h) and kept volumes back to what they were
+// (keep_volume.h), whose failure is the only one.
 // Second order, symplectic without damping. Damping sees the velocity predicted for the step's end.
 // Neither the limit nor the result is checked: vsc_advance does.
-void vsc_steps(const vsc_model *model, vsc_state *state, double dt, double count);
+vsc_status vsc_steps(const vsc_model *model, vsc_state *state, double dt, double count,
+                     vsc_error *error);
 
 // Steps from state->time to `until` (ms) in equal steps not longer than the stable one, which is
 // re-estimated at least every 4 ms; with a step given by the user, in steps of just that length to

@@ -111,7 +111,7 @@ static vsc_status time_steps(const vsc_mesh *mesh, const bench_case *bench, int 
   *seconds = 1e9;
   for (int k = 0; k < TIMINGS && status == VSC_OK; k++) {
     const double start = threads == 1 ? vsc_cpu_seconds() : vsc_wall_seconds();
-    vsc_steps(model, state, state->limit.step, steps);
+    status = vsc_steps(model, state, state->limit.step, steps, error);
     const double passed = (threads == 1 ? vsc_cpu_seconds() : vsc_wall_seconds()) - start;
     if (passed / steps < *seconds) *seconds = passed / steps;
   }

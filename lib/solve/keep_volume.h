@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Volumes kept to rounding by Lagrange multipliers (Witkin's constrained dynamics, to which Bourguignon
+// & Cani 2000 point), in the form of SHAKE and RATTLE: energy-neutral and second order.
+#ifndef VSC_SOLVE_KEEP_VOLUME_H
+#define VSC_SOLVE_KEEP_VOLUME_H
+
+#include "mech/state.h"
+
+// Part of its volume by which a kept one may differ after a step.
+#define VSC_KEPT_TOLERANCE 1e-12
+
+// To be called when the positions have drifted in a step of dt (ms), after contact: finds multipliers
+// lambda so that with the gradients g_k of the volumes at the step's start, x_0 = x - dt v,
+//   x <- x + sum_k lambda_k M^-1 g_k(x_0),  v <- v + the same / dt,  v_k(x) = V_k for all k,
+// by Newton's iteration with the matrix g M^-1 g^T (CHOLMOD), which is factorised anew when `fresh` or
+// when it converges slowly. Nodes in contact do not move along the contact's normal, those in contact
+// with several obstacles not at all. lambda_k/dt^2 is a pressure (kPa, added to state->kept_pressure).
+// VSC_NUMERICAL when the volumes cannot be kept.
+vsc_status vsc_keep_volume(const vsc_model *model, vsc_state *state, double dt, bool fresh,
+                           vsc_error *error);
+
+// To be called when a row of steps has ended: takes from the velocities what would change the volumes,
+//   v <- v - M^-1 g^T (g M^-1 g^T)^-1 g v.
+vsc_status vsc_keep_volume_settle(const vsc_model *model, vsc_state *state, vsc_error *error);
+
+#endif

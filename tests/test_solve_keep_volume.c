@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Volumes kept by multipliers: to rounding, without a change of energy or momenta, second order in
+// time, also beside contact.
+#include "base/mem.h"
+#include "base/vec3.h"
+#include "hybrid_mesh.h"
+#include "small_body.h"
+#include "solve/keep_volume.h"
+
+static const vsc_kept_volume kinds[] = {VSC_KEEP_TOTAL, VSC_KEEP_REGION, VSC_KEEP_NODE,
+                                        VSC_KEEP_ELEMENT};
+
+// A soft block that springs hardly keep from changing volume: of hexahedra and others for ELEMENT.
+static void open_soft(small_body *body, vsc_kept_volume kind)
+{
+  body_open(body, kind == VSC_KEEP_ELEMENT ? hybrid_block(2, 0.1, 5) : block_of(3, 2, 2, 1, 0.2), 4);
+  body->definition.kept_volume = kind;
+}
+
+static double worst(const small_body *body)
+{
+  double most = 0;
+  for (size_t k = 0; k < body->model->kept.count; k++)
+    most = fmax(most, fabs(vsc_kept_volume_of(body->model, k, body->state->x) /
+                               body->model->kept.rest[k] - 1));
+  return most;
+}
+
+static void sums_of(const small_body *body, double momentum[3], double turning[3])
+{
+  memset(momentum, 0, 3 * sizeof *momentum);
+  memset(turning, 0, 3 * sizeof *turning);
+  for (size_t n = 0; n < body->model->node_count; n++) {
+    double moment[3];
+    vsc_cross(body->state->x + 4 * n, body->state->v + 4 * n, moment);
+    for (int i = 0; i < 3; i++) {
+      momentum[i] += body->model->mass[n] * body->state->v[4 * n + i];
+      turning[i] += body->model->mass[n] * moment[i];
+    }
+  }
+}
+
+static double energy_of(small_body *body, vsc_ledger *ledger)
+{
+  vsc_totals t;
+  vsc_observe(body->model, body->state, ledger, true, &t);
+  return t.kinetic + t.axial + t.angular + t.volume_energy;
+}
+
+// A shaken free block of each kind of kept volume, 3000 steps: volumes to 1e-12, momenta to the
+// rounding of so many steps, energy within Verlet's swing and without drift.
+static void volumes_momenta_and_energy_stay(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 4; k++) {
+    small_body body;
+    vsc_ledger *ledger;
+    vsc_error error;
+    double before[3], turning[3], after[3], turned[3];
+    open_soft(&body, kinds[k]);
+    body_build(&body);
+    body_start(&body);
+    body_shake(&body, 0.3);
+    assert_int_equal(vsc_ledger_create(body.model, &ledger, NULL), VSC_OK);
+    // the first row of steps takes from the shaking what volumes do not allow
+    const double dt = 0.4 * body.state->limit.step;
+    body_steps(&body, dt, 1);
+    sums_of(&body, before, turning);
+    double early = 0, late = 0;
+    for (int look = 0; look < 60; look++) {
+      if (vsc_steps(body.model, body.state, dt, 50, &error) != VSC_OK) fail_msg("%s", error.text);
+      assert_true(worst(&body) <= 2 * VSC_KEPT_TOLERANCE);
+      *(look < 30 ? &early : &late) += energy_of(&body, ledger) / 30;
+    }
+    sums_of(&body, after, turned);
+    for (int i = 0; i < 3; i++) {
+      assert_close(after[i], before[i], 0, 1e-9 * body.model->total_mass * 0.3);
+      assert_close(turned[i], turning[i], 0, 1e-9 * body.model->total_mass * 0.3);
+    }
+    assert_close(late, early, 5e-3, 0);
+    vsc_ledger_free(ledger);
+    body_close(&body);
+  }
+}
+
+// Positions after 3 ms from a given motion.
+static double *positions_after(vsc_kept_volume kind, size_t steps, size_t *count)
+{
+  small_body body;
+  open_soft(&body, kind);
+  body_build(&body);
+  body_start(&body);
+  // smooth: a bending and twisting motion, whose part that changes volume goes at once
+  for (size_t n = 0; n < body.model->node_count; n++) {
+    const double *x = body.model->rest + 4 * n;
+    double *v = body.state->v + 4 * n;
+    v[0] = 0.05 * sin(x[1]);
+    v[1] = 0.1 * sin(x[0]) - 0.03 * x[2];
+    v[2] = 0.06 * cos(x[0]) + 0.03 * x[1];
+  }
+  vsc_error error;
+  assert_int_equal(vsc_steps(body.model, body.state, 1e-7, 1, &error), VSC_OK);
+  body_steps(&body, 3.0 / (double)steps, steps);
+  *count = 4 * body.model->node_count;
+  double *x;
+  if (!VSC_NEW(x, *count)) fail_msg("no memory");
+  memcpy(x, body.state->x, *count * sizeof *x);
+  body_close(&body);
+  return x;
+}
+
+static void order_in_time_is_two(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 4; k++) {
+    enum { LEVELS = 4 };
+    double *x[LEVELS], error[LEVELS - 1] = {0};
+    size_t count;
+    for (int l = 0; l < LEVELS; l++) x[l] = positions_after(kinds[k], (size_t)200 << l, &count);
+    for (int l = 0; l + 1 < LEVELS; l++)
+      for (size_t i = 0; i < count; i++) error[l] = fmax(error[l], fabs(x[l][i] - x[l + 1][i]));
+    assert_close(log2(error[1] / error[2]), 2, 0, 0.1);
+    for (int l = 0; l < LEVELS; l++) vsc_free(x[l]);
+  }
+}
+
+// A block held at one end contracts along its fibres and lies on a table: the volume stays to 1e-10
+// through the whole beat, no node enters the table, and the table bears the weight of what is free.
+static void a_beat_on_a_table(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 3; k += 2) {
+    small_body body;
+    vsc_error error;
+    vsc_obstacle_def table = vsc_default_obstacle();
+    table.normal[2] = 1;
+    table.friction = 0.3;
+    open_soft(&body, kinds[k]);
+    for (int a = 0; a < 3; a++) body.material.damping[a] = 5;
+    body.definition.obstacles = &table;
+    body.definition.obstacle_count = 1;
+    body.definition.gravity[2] = -9.81e-3;
+    body.material.active = vsc_default_active();
+    body.material.active.kind = VSC_ACTIVE_TENSION;
+    body.material.active.tension = 15;
+    body.material.active.curve = vsc_default_curve(VSC_CURVE_HALF_SINE);
+    body.material.active.curve.duration = 40;
+    body_fibers(&body, (double[]){1, 0, 0});
+    body_build(&body);
+    body_start(&body);
+    double shortest = INFINITY;
+    for (double time = 1; time <= 100; time++) {
+      if (vsc_advance(body.model, body.state, time, &error) != VSC_OK) fail_msg("%s", error.text);
+      assert_true(worst(&body) <= 1e-10);
+      double low = INFINITY, high = -INFINITY;
+      for (size_t n = 0; n < body.model->node_count; n++) {
+        assert_true(body.state->x[4 * n + 2] >= -1e-12);
+        low = fmin(low, body.state->x[4 * n]);
+        high = fmax(high, body.state->x[4 * n]);
+      }
+      shortest = fmin(shortest, high - low);
+    }
+    assert_true(shortest < 2.6);
+    const double before = body.state->contact[0].impulse[2];
+    assert_int_equal(vsc_advance(body.model, body.state, 120, &error), VSC_OK);
+    assert_close((body.state->contact[0].impulse[2] - before) / 20,
+                 body.model->total_mass * 9.81e-3, 2e-3, 0);
+    body_close(&body);
+  }
+}
+
+static void what_cannot_be_kept_is_refused(void **state)
+{
+  (void)state;
+  small_body body;
+  vsc_error error;
+  vsc_model *model;
+  body_open(&body, block_of(4, 4, 4, 1, 0.2), 4);  // 384 tets, 125 nodes: 375 ways to move
+  body.definition.kept_volume = VSC_KEEP_ELEMENT;
+  assert_int_equal(vsc_model_build(body.mesh, NULL, &body.definition, &model, &error), VSC_INPUT);
+  assert_non_null(strstr(error.text, "384 volumes"));
+  assert_non_null(strstr(error.text, "375 ways"));
+  // a body that is held all over has nothing to keep
+  body.definition.kept_volume = VSC_KEEP_TOTAL;
+  body.sets[0] = (vsc_selector){.name = "all", .kind = VSC_SELECT_BOX, .box_high = {9, 9, 9}};
+  body.supports[0] = (vsc_support_def){.set = "all", .held = {1, 1, 1}};
+  body.definition.set_count = body.definition.support_count = 1;
+  body_build(&body);
+  assert_int_equal(body.model->kept.count, 0);
+  body_close(&body);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(volumes_momenta_and_energy_stay),
+      cmocka_unit_test(order_in_time_is_two),
+      cmocka_unit_test(a_beat_on_a_table),
+      cmocka_unit_test(what_cannot_be_kept_is_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
