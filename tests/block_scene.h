@@ -8,6 +8,7 @@
 #include "mesh/mesh.h"
 #include "program.h"
 #include "tools/shapes.h"
+#include "write_tets.h"
 
 static const char block_scene[] =
     "mesh: {file: block.vtu, unit: mm, region_array: region}\n"
@@ -94,11 +95,11 @@ static inline void write_block(const char *file, const uint32_t *node_order,
     fiber[3 * p + 1] = 0.2 * sin((double)t);
     fiber[3 * p + 2] = 0.3 * cos((double)t);
   }
-  const vsc_vtk_array arrays[] = {{"x0", 1, face[0], true, false},
-                                  {"x1", 1, face[1], true, false},
-                                  {"region", 1, region, false, true},
-                                  {"direction", 3, fiber, false, false}};
-  if (vsc_vtk_write_mesh(in_folder(file), nodes, x, tets, corner, 0, NULL, 4, arrays, true, NULL) !=
+  const vsc_vtk_array arrays[] = {{"x0", 1, face[0], VSC_ON_NODES, false},
+                                  {"x1", 1, face[1], VSC_ON_NODES, false},
+                                  {"region", 1, region, VSC_ON_ELEMENTS, true},
+                                  {"direction", 3, fiber, VSC_ON_ELEMENTS, false}};
+  if (write_tets(in_folder(file), nodes, x, tets, corner, 0, NULL, 4, arrays, true, NULL) !=
       VSC_OK)
     fail_msg("%s", file);
   free(x);

@@ -7,7 +7,9 @@
 #include "base/vec3.h"
 #include "box_mesh.h"
 #include "close.h"
+#include "hybrid_mesh.h"
 #include "io/vtk.h"
+#include "write_tets.h"
 #include "mesh/surface.h"
 #include "scratch.h"
 
@@ -46,7 +48,7 @@ static const char MIXED_VTU[] =
   "<Cells><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">\n"
   "8  0 1 3 4  0 1 4  0 1 2 3 4 5 6 7  6 5 2 7</DataArray>\n"
   "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">1 5 8 16 20</DataArray>\n"
-  "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">1 10 5 12 10</DataArray></Cells>\n"
+  "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">1 10 5 23 10</DataArray></Cells>\n"
   "<PointData>\n"
   "<DataArray type=\"Int16\" Name=\"p\" format=\"ascii\">0 -1 2 3 4 5 6 7 8</DataArray>\n"
   "</PointData><CellData>\n"
@@ -69,8 +71,8 @@ static void a_mixed_grid_is_sorted(void **state)
   assert_int_equal(mesh->report.file_nodes, 9);
   assert_int_equal(mesh->report.file_cells, 5);
   assert_int_equal(mesh->report.ignored_cells, 2);
-  assert_string_equal(mesh->report.ignored_kinds, "1 vertices, 1 hexahedra");
-  assert_int_equal(mesh->report.turned_tets, 1);
+  assert_string_equal(mesh->report.ignored_kinds, "1 vertices, 1 cells of VTK type 23");
+  assert_int_equal(mesh->report.turned_elements, 1);
   assert_int_equal(mesh->report.unused_nodes, 1);
   assert_int_equal(mesh->element_count, 2);
   assert_int_equal(mesh->element_source[0], 1);
@@ -217,11 +219,11 @@ static vsc_mesh *write_box(const char *path, bool double_precision, double *shad
   vsc_surface boundary;
   assert_int_equal(vsc_boundary(mesh, &boundary, NULL), VSC_OK);
   for (size_t i = 0; i < mesh->element_count; i++) shade[i] = (double)i - 10.4;
-  const vsc_vtk_array arrays[] = {{"position", 3, mesh->nodes, true, false},
-                                  {"shade", 1, shade, false, false},
-                                  {"region", 1, shade, false, true}};
+  const vsc_vtk_array arrays[] = {{"position", 3, mesh->nodes, VSC_ON_NODES, false},
+                                  {"shade", 1, shade, VSC_ON_ELEMENTS, false},
+                                  {"region", 1, shade, VSC_ON_ELEMENTS, true}};
   vsc_error error = {0};
-  if (vsc_vtk_write_mesh(path, mesh->node_count, mesh->nodes, mesh->element_count, mesh->corners,
+  if (write_tets(path, mesh->node_count, mesh->nodes, mesh->element_count, mesh->corners,
                          boundary.count, boundary.triangles, 3, arrays, double_precision,
                          &error) != VSC_OK)
     fail_msg("%s", error.text);
@@ -240,7 +242,7 @@ static void what_is_written_reads_back(void **state)
     assert_int_equal(back->node_count, mesh->node_count);
     assert_int_equal(back->element_count, mesh->element_count);
     assert_int_equal(back->triangle_count, 2 * 2 * (12 + 8 + 6));
-    assert_int_equal(back->report.turned_tets, 0);
+    assert_int_equal(back->report.turned_elements, 0);
     assert_memory_equal(back->corners, mesh->corners, 4 * mesh->element_count * sizeof *mesh->corners);
     const vsc_array *position = array_of(&back->node_data, "position", 3);
     for (size_t i = 0; i < 3 * mesh->node_count; i++) {
@@ -282,8 +284,8 @@ static void infinite_values_are_read(void **state)
   const double nodes[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   const double values[4] = {1, INFINITY, NAN, -INFINITY};
   const uint32_t tet[4] = {0, 1, 2, 3};
-  const vsc_vtk_array array = {"a", 1, values, true, false};
-  assert_int_equal(vsc_vtk_write_mesh(scratch("inf.vtu"), 4, nodes, 1, tet, 0, NULL, 1, &array,
+  const vsc_vtk_array array = {"a", 1, values, VSC_ON_NODES, false};
+  assert_int_equal(write_tets(scratch("inf.vtu"), 4, nodes, 1, tet, 0, NULL, 1, &array,
                                       true, NULL), VSC_OK);
   size_t bytes;
   char *text = scratch_load(scratch("inf.vtu"), &bytes);
@@ -313,7 +315,7 @@ static void what_cannot_be_written_is_reported(void **state)
   const uint32_t tet[4] = {0, 1, 2, 3};
   vsc_error error = {0};
   const char *path = scratch("no_folder/out.vtu");
-  assert_int_equal(vsc_vtk_write_mesh(path, 4, nodes, 1, tet, 0, NULL, 0, NULL, false, &error),
+  assert_int_equal(write_tets(path, 4, nodes, 1, tet, 0, NULL, 0, NULL, false, &error),
                    VSC_SYSTEM);
   assert_ptr_equal(strstr(error.text, path), error.text);
   assert_non_null(strstr(error.text, "No such file"));
@@ -440,6 +442,65 @@ static void vtk_is_silent(void **state)
   assert_int_equal(printed, 0);
 }
 
+// Elements of all kinds with a number each: they come back as they went, in their order.
+static void a_hybrid_mesh_comes_back(void **state)
+{
+  (void)state;
+  vsc_mesh *mesh = hybrid_block(3, 0.1, 5), *back = NULL;
+  vsc_error error;
+  double *numbers;
+  if (!VSC_NEW(numbers, mesh->element_count)) fail_msg("no memory");
+  for (size_t e = 0; e < mesh->element_count; e++) numbers[e] = (double)(7 * e % 100);
+  const vsc_vtk_array array = {"number", 1, numbers, VSC_ON_ELEMENTS, true};
+  const char *file = scratch("hybrid.vtu");
+  if (vsc_vtk_write_mesh(file, mesh, 1, &array, true, &error) != VSC_OK ||
+      vsc_vtk_read_mesh(file, 1, &back, &error) != VSC_OK)
+    fail_msg("%s", error.text);
+  assert_int_equal(back->report.turned_elements, 0);
+  assert_int_equal(back->element_count, mesh->element_count);
+  assert_memory_equal(back->kinds, mesh->kinds, mesh->element_count);
+  assert_memory_equal(back->corners, mesh->corners,
+                      mesh->start[mesh->element_count] * sizeof *mesh->corners);
+  assert_memory_equal(back->nodes, mesh->nodes, 3 * mesh->node_count * sizeof *mesh->nodes);
+  assert_memory_equal(vsc_arrays_find(&back->element_data, "number")->values, numbers,
+                      mesh->element_count * sizeof *numbers);
+  vsc_free(numbers);
+  vsc_mesh_free(mesh);
+  vsc_mesh_free(back);
+}
+
+// A surface alone: two triangles and a quad, which is cut in two; what lies on cells lies on both.
+static void a_surface_is_read(void **state)
+{
+  (void)state;
+  static const char text[] =
+      "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 float\n"
+      "0 0 0  1 0 0  1 1 0  0 1 0  2 0 0  2 1 0\nCELLS 3 13\n3 0 1 2\n3 0 2 3\n4 1 4 5 2\n"
+      "CELL_TYPES 3\n5\n5\n9\nCELL_DATA 3\nSCALARS s float 1\nLOOKUP_TABLE default\n1 2 3\n";
+  vsc_mesh *mesh = read_mesh(scratch_text("surface.vtk", text), 1);
+  assert_int_equal(mesh->element_count, 0);
+  assert_int_equal(mesh->triangle_count, 4);
+  assert_int_equal(mesh->node_count, 6);
+  const double values[4] = {1, 2, 3, 3};
+  assert_memory_equal(array_of(&mesh->triangle_data, "s", 1)->values, values, sizeof values);
+  vsc_mesh_free(mesh);
+}
+
+// A voxel numbers its corners row by row.
+static void a_voxel_is_a_hexahedron(void **state)
+{
+  (void)state;
+  static const char text[] =
+      "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 float\n"
+      "0 0 0  2 0 0  0 1 0  2 1 0  0 0 3  2 0 3  0 1 3  2 1 3\nCELLS 1 9\n8 0 1 2 3 4 5 6 7\n"
+      "CELL_TYPES 1\n11\n";
+  vsc_mesh *mesh = read_mesh(scratch_text("voxel.vtk", text), 1);
+  assert_int_equal(mesh->kinds[0], VSC_HEX);
+  assert_int_equal(mesh->report.turned_elements, 0);
+  assert_close(vsc_mesh_element_volume(mesh, 0), 6, 1e-15, 0);
+  vsc_mesh_free(mesh);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -456,6 +517,9 @@ int main(void)
     cmocka_unit_test(extents_spacings_and_cells_are_honoured),
     cmocka_unit_test(legacy_images_are_read),
     cmocka_unit_test(vtk_is_silent),
+    cmocka_unit_test(a_hybrid_mesh_comes_back),
+    cmocka_unit_test(a_surface_is_read),
+    cmocka_unit_test(a_voxel_is_a_hexahedron),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }

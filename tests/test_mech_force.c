@@ -349,7 +349,7 @@ static void scatter_is_the_transpose_of_gather(void **state)
     const vsc_patch *patch = &model->patches[p];
     for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++) {
       vsc_wide3 rate[3];
-      vsc_pack_axes(model, patch, &model->packs[k], u_model, rate);
+      vsc_pack_axes(model, patch, k, 0, u_model, rate);
       for (int l = 0; l < VSC_WIDTH; l++) {
         const uint32_t t = model->mesh_element[VSC_WIDTH * k + (size_t)l];
         if (t == VSC_NO_ELEMENT) continue;

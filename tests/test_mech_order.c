@@ -77,9 +77,11 @@ static void fill_work(const vsc_model *model, const vsc_patch *patch, uint64_t *
     pressure[n] = random_between(seed, -50, 50);
   }
   for (size_t k = 0; k < 4 * (size_t)patch->pack_count; k++) activation[k] = random_part(seed);
-  *work = (vsc_patch_work){.packs = model->packs + patch->first_pack,
+  *work = (vsc_patch_work){.packs = model->store + patch->packs,
                            .pack_count = patch->pack_count,
                            .material = &model->materials[patch->material],
+                           .axes = model->axes,
+                           .pairs = model->pairs,
                            .x = x,
                            .w = w,
                            .pressure = pressure,
@@ -116,10 +118,11 @@ static void instruction_sets_give_the_same_bits(void **state)
     double *memory = numbers(9 * nodes + 4 + 4 * (size_t)patch->pack_count);
     vsc_patch_work work;
     fill_work(model, patch, &seed, memory, &work);
-    for (int variant = 0; variant < 12; variant++) {
-      const int damping = variant & 1, nodal = variant >> 1 & 1, active = variant >> 2;
-      run_sets(&work, nodes, vsc_kernels_avx2.force[damping][active][nodal],
-               vsc_kernels_baseline.force[damping][active][nodal]);
+    for (int variant = 0; variant < 24; variant++) {
+      const int damping = variant & 1, nodal = variant >> 1 & 1, composed = variant >> 2 & 1;
+      const int active = variant >> 3;
+      run_sets(&work, nodes, vsc_kernels_avx2.tets[composed][damping][active][nodal],
+               vsc_kernels_baseline.tets[composed][damping][active][nodal]);
     }
     run_sets(&work, nodes, vsc_kernels_avx2.volume, vsc_kernels_baseline.volume);
     vsc_free(memory);

@@ -84,7 +84,7 @@ static void a_mesh_without_tets_is_refused(void **state)
   vsc_error error;
   assert_int_equal(vsc_mesh_from_arrays(4, CORNERS, 0, NULL, &mesh, &error), VSC_INPUT);
   assert_null(mesh);
-  assert_non_null(strstr(error.text, "no tetrahedra"));
+  assert_non_null(strstr(error.text, "neither"));
   assert_int_equal(vsc_mesh_from_arrays(0, NULL, 0, NULL, &mesh, NULL), VSC_INPUT);
 }
 
@@ -99,7 +99,7 @@ static void left_handed_tets_are_turned(void **state)
   vsc_mesh *mesh;
   assert_int_equal(vsc_mesh_from_arrays(raw->node_count, raw->nodes, raw->element_count, raw->corners,
                                         &mesh, NULL), VSC_OK);
-  assert_int_equal(mesh->report.turned_tets, left);
+  assert_int_equal(mesh->report.turned_elements, left);
   double sum = 0;
   for (size_t t = 0; t < mesh->element_count; t++) {
     assert_true(vsc_mesh_element_volume(mesh, t) > 0);

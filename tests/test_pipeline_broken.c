@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Broken input through the whole program: one clear line on stderr, the right exit code, nothing
 // written.
+#include "write_tets.h"
 #include "block_scene.h"
 #include "io/scene.h"
 #include "mesh/image.h"
@@ -181,12 +182,12 @@ static void write_two(double first, double f)
   const double nodes[15] = {first, 0, 0, 10, 0, 0, 0, 10, 0, 0, 0, 10, 9, 9, 9};
   const double x0[5] = {1, 0, 1, 1, 0}, x1[5] = {0, 1, 1, 1, 1}, region[2] = {1, 1},
                fiber[6] = {f, 0, 0, f, 0, 0};
-  const vsc_vtk_array arrays[] = {{"x0", 1, x0, true, false},
-                                  {"x1", 1, x1, true, false},
-                                  {"region", 1, region, false, true},
-                                  {"direction", 3, fiber, false, false}};
+  const vsc_vtk_array arrays[] = {{"x0", 1, x0, VSC_ON_NODES, false},
+                                  {"x1", 1, x1, VSC_ON_NODES, false},
+                                  {"region", 1, region, VSC_ON_ELEMENTS, true},
+                                  {"direction", 3, fiber, VSC_ON_ELEMENTS, false}};
   assert_int_equal(
-      vsc_vtk_write_mesh(in_folder("two.vtu"), 5, nodes, 2, tets, 0, NULL, 4, arrays, true, NULL),
+      write_tets(in_folder("two.vtu"), 5, nodes, 2, tets, 0, NULL, 4, arrays, true, NULL),
       VSC_OK);
 }
 

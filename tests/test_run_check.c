@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What `viscera check` says about a scene, and which warnings it has for which scenes.
+#include "write_tets.h"
 #include "block_scene.h"
 
 // The line of the last output that begins with `word`; valid until the next call.
@@ -42,7 +43,7 @@ static void test_the_shipped_beat(void **state)
   assert_string_equal(complained, "");
   assert_true(line_count(said) >= 13 && line_count(said) <= 25);
   assert_holds(line_of("scene"), "/data/beat.yaml");
-  assert_holds(line_of("mesh"), "lv.vtu: 2116 nodes, 7680 tets");
+  assert_holds(line_of("mesh"), "lv.vtu: 2116 nodes, 7680 tetrahedra");
   assert_holds(line_of("mesh"), "1 unit = 1 mm");
   assert_holds(line_of("size"), "70.96 x 70.96 x 93 mm");
   assert_holds(line_of("size"), "tissue 134 ml, 142");
@@ -59,7 +60,7 @@ static void test_the_shipped_beat(void **state)
   assert_holds(line_of("active"), "tension up to");
   assert_holds(line_of("active"), "period 800 ms");
   assert_holds(line_of("terms"),
-               "axial damping; volume of node groups and of each tet; active tension");
+               "axial damping; volume of node groups and of each element; active tension");
   assert_holds(line_of("terms"), "pressure on endo up to");
   assert_holds(line_of("step"), "(automatic)");
   assert_holds(line_of("step"), "limited most by element");
@@ -157,14 +158,14 @@ static void write_fibres(void)
     }
   }
   const vsc_vtk_array arrays[] = {
-      {"x0", 1, vsc_arrays_find(&mesh->node_data, "x0")->values, true, false},
-      {"x1", 1, vsc_arrays_find(&mesh->node_data, "x1")->values, true, false},
-      {"region", 1, vsc_arrays_find(&mesh->element_data, "region")->values, false, true},
-      {"same", 3, v[SAME], false, false},
-      {"turning", 3, v[TURNING], false, false},
-      {"holes", 3, v[HOLES], false, false},
-      {"slanted", 3, v[SLANTED], false, false}};
-  assert_int_equal(vsc_vtk_write_mesh(in_folder("fibres.vtu"), mesh->node_count, mesh->nodes,
+      {"x0", 1, vsc_arrays_find(&mesh->node_data, "x0")->values, VSC_ON_NODES, false},
+      {"x1", 1, vsc_arrays_find(&mesh->node_data, "x1")->values, VSC_ON_NODES, false},
+      {"region", 1, vsc_arrays_find(&mesh->element_data, "region")->values, VSC_ON_ELEMENTS, true},
+      {"same", 3, v[SAME], VSC_ON_ELEMENTS, false},
+      {"turning", 3, v[TURNING], VSC_ON_ELEMENTS, false},
+      {"holes", 3, v[HOLES], VSC_ON_ELEMENTS, false},
+      {"slanted", 3, v[SLANTED], VSC_ON_ELEMENTS, false}};
+  assert_int_equal(write_tets(in_folder("fibres.vtu"), mesh->node_count, mesh->nodes,
                                       mesh->element_count, mesh->corners, 0, NULL, 7, arrays, true, NULL),
                    VSC_OK);
   for (int k = 0; k < KINDS; k++) free(v[k]);

@@ -294,6 +294,28 @@ static void test_intervals(void **state)
                (const double[]){0, 2.2, 4.4, 6.6, 8.8, 11}, 3, (const double[]){0, 5.5, 11});
 }
 
+// Steps of the user's length lead past multiples of the intervals: rows and frames come with the first
+// step that is not before them, and a forced step is told in the summary.
+static void test_fixed_steps(void **state)
+{
+  (void)state;
+  static signals s;
+  must("$V run block.yaml -q -o fixed --set 'output={frames: 0.5 ms, signals: 0.2 ms}' --set 'time={end: 2 ms, "
+       "step: 0.03 ms, force: true}'");
+  read_signals("fixed", &s);
+  assert_int_equal(s.rows, 11);
+  for (int r = 0; r < s.rows; r++) {
+    const double step = ceil(0.2 * r / 0.03 * (1 - 1e-12));
+    assert_close(s.values[r][0], 1e-3 * 0.03 * step, 1e-11, 0);
+  }
+  vsc_pvd *series = open_series("fixed/block.pvd");
+  assert_int_equal(vsc_pvd_count(series), 5);
+  for (size_t f = 0; f < 5; f++)
+    assert_close(vsc_pvd_time(series, f), 1e-3 * 0.03 * ceil(0.5 * (double)f / 0.03 * (1 - 1e-12)), 1e-11, 0);
+  vsc_pvd_free(series);
+  must("grep -q forced_step fixed/summary.json");
+}
+
 // 0.1 is no binary fraction: 110 multiples of it, none twice, none left out.
 static void test_many_rows(void **state)
 {
@@ -372,6 +394,7 @@ int main(void)
       cmocka_unit_test(test_order_of_the_file),
       cmocka_unit_test(test_fibres_of_the_first_frame),
       cmocka_unit_test(test_intervals),
+      cmocka_unit_test(test_fixed_steps),
       cmocka_unit_test(test_many_rows),
       cmocka_unit_test(test_library_call),
       cmocka_unit_test(test_long_names),

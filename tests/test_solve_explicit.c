@@ -255,6 +255,63 @@ static void test_large_step_is_refused(void **state)
   body_close(&body);
 }
 
+// Steps of the user's length are just that long, wherever the looks are, and lead past them; the same
+// as so many steps at once.
+static void test_steps_of_the_users_length(void **state)
+{
+  (void)state;
+  small_body body, other;
+  vsc_error error;
+  open_block(&body);
+  body_build(&body);
+  body_start(&body);
+  const double step = 0.7 * body.state->limit.step;
+  vsc_state_free(body.state);
+  vsc_model_free(body.model);
+  body.definition.step = step;
+  body_build(&body);
+  body_start(&body);
+  body_shake(&body, 0.5);
+  for (double until = 0.31; until < 5; until += 0.31) {
+    assert_int_equal(vsc_advance(body.model, body.state, until, &error), VSC_OK);
+    assert_close(body.state->time, step * ceil(until / step), 1e-14, 0);
+    assert_close(body.state->steps, ceil(until / step), 0, 0);
+  }
+  open_block(&other);
+  other.definition.step = step;
+  body_build(&other);
+  body_start(&other);
+  body_shake(&other, 0.5);
+  body_steps(&other, step, (size_t)body.state->steps);
+  assert_int_equal(memcmp(other.state->x, body.state->x, 32 * body.model->node_count), 0);
+  body_close(&other);
+  body_close(&body);
+}
+
+// Forced, a step above the stable one is taken, and the body flies apart: that is the user's wish,
+// and the message still says when.
+static void test_forced_step(void **state)
+{
+  (void)state;
+  small_body body;
+  vsc_error error;
+  open_block(&body);
+  body_build(&body);
+  body_start(&body);
+  const double stable = body.state->limit.step / body.model->safety;
+  vsc_state_free(body.state);
+  vsc_model_free(body.model);
+  body.definition.step = 1.5 * stable;
+  body.definition.force_step = true;
+  body_build(&body);
+  body_start(&body);
+  body_shake(&body, 0.1);
+  assert_int_equal(vsc_advance(body.model, body.state, 10000 * stable, &error), VSC_NUMERICAL);
+  assert_true(body.state->steps > 1);
+  assert_non_null(strstr(error.text, "ms"));
+  body_close(&body);
+}
+
 // A spring that will be stiff at the peak counts before the first step.
 static void test_activation_counts_for_the_step(void **state)
 {
@@ -390,6 +447,8 @@ int main(void)
       cmocka_unit_test(test_time_reversal),
       cmocka_unit_test(test_free_fall),
       cmocka_unit_test(test_large_step_is_refused),
+      cmocka_unit_test(test_steps_of_the_users_length),
+      cmocka_unit_test(test_forced_step),
       cmocka_unit_test(test_activation_counts_for_the_step),
       cmocka_unit_test(test_nothing_to_step),
       cmocka_unit_test(test_blow_up_is_reported),

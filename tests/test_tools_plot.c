@@ -11,6 +11,7 @@
 #include "base/vec3.h"
 #include "io/pvd.h"
 #include "io/vtk.h"
+#include "write_tets.h"
 #include "mesh/mesh.h"
 #include "tools/plot/raster.h"
 #include "tools/plot/signals.h"
@@ -110,9 +111,9 @@ static void write_frame(const vsc_mesh *mesh, const char *file, double share)
     vsc_mesh_element_centre(mesh, t, centre);
     tension[t] = share * (60 + 0.4 * centre[2]);
   }
-  const vsc_vtk_array arrays[] = {{"displacement", 3, displacement, true, false},
-                                  {"active_tension", 1, tension, false, false}};
-  assert_int_equal(vsc_vtk_write_mesh(in_folder(file), mesh->node_count, mesh->nodes,
+  const vsc_vtk_array arrays[] = {{"displacement", 3, displacement, VSC_ON_NODES, false},
+                                  {"active_tension", 1, tension, VSC_ON_ELEMENTS, false}};
+  assert_int_equal(write_tets(in_folder(file), mesh->node_count, mesh->nodes,
                                       mesh->element_count, mesh->corners, 0, NULL, 2, arrays, false, NULL),
                    VSC_OK);
   vsc_free(displacement);

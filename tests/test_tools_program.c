@@ -11,6 +11,7 @@
 #include "io/checkpoint.h"
 #include "io/pvd.h"
 #include "io/vtk.h"
+#include "write_tets.h"
 #include "mesh/image.h"
 #include "mesh/mesh.h"
 
@@ -66,8 +67,8 @@ static void write_mesh(const char *file, size_t nodes, double shift)
   static const uint32_t shared[8] = {0, 1, 2, 3, 1, 2, 3, 4}, apart[8] = {0, 1, 2, 3, 4, 5, 6, 7};
   double p[24], c[2] = {3 + shift, 4 + shift};
   for (int i = 0; i < 24; i++) p[i] = i + shift;
-  const vsc_vtk_array arrays[] = {{"p", 3, p, true, false}, {"c", 1, c, false, false}};
-  assert_int_equal(vsc_vtk_write_mesh(in_folder(file), nodes, points, nodes == 4 ? 1 : 2,
+  const vsc_vtk_array arrays[] = {{"p", 3, p, VSC_ON_NODES, false}, {"c", 1, c, VSC_ON_ELEMENTS, false}};
+  assert_int_equal(write_tets(in_folder(file), nodes, points, nodes == 4 ? 1 : 2,
                                       nodes == 8 ? apart : shared, 0, NULL, 2, arrays, true, NULL),
                    VSC_OK);
 }
@@ -166,7 +167,7 @@ static void test_info(void **state)
 {
   (void)state;
   assert_int_equal(run("info a.vtu"), 0);
-  assert_holds(said, "2 tets");
+  assert_holds(said, "2 tetrahedra");
   assert_holds(said, "(0, 0, 0) to (1, 1, 1)");
   assert_holds(said, " 3 to 4\n");
   assert_true(line_count(said) < 25);
@@ -196,7 +197,7 @@ static void test_info_says_what_is_wrong(void **state)
   }
   // The good ones of several are told all the same.
   assert_int_equal(run("info none.vtu a.vtu"), 2);
-  assert_holds(said, "2 tets");
+  assert_holds(said, "2 tetrahedra");
 }
 
 // The numbers of an array's row: max abs, RMS, relative L2.
@@ -251,7 +252,7 @@ static void test_compare_refuses(void **state)
 {
   (void)state;
   assert_int_equal(run("compare a.vtu small.vtu"), 2);
-  assert_holds(complained, "5 points and 2 tets");
+  assert_holds(complained, "5 points and 2 elements");
   assert_int_equal(run("compare a.vtu apart.vtu"), 2);
   assert_holds(complained, "8 and 2");
   assert_int_equal(run("compare a.vtu a.pvd"), 2);

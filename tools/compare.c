@@ -20,7 +20,7 @@ static const double SAME_TIME = 1e-9;  // s
 // RMS = sqrt(sum d^2 / n), relative L2 = sqrt(sum d^2) / sqrt(sum b^2).
 typedef struct norms {
   char name[VSC_NAME];
-  const char *where;  // "points" or "tets"
+  const char *where;  // "points" or "elements"
   double largest;     // max |d|
   double squares;     // sum d^2
   double reference;   // sum b^2
@@ -120,6 +120,14 @@ static vsc_status add_arrays(comparison *all, const char *where, const vsc_array
   return VSC_OK;
 }
 
+// Elements of the same kinds on the same points, or else the mesh is another one.
+static bool same_corners(const vsc_mesh *a, const vsc_mesh *b)
+{
+  const size_t elements = a->element_count;
+  return memcmp(a->kinds, b->kinds, elements * sizeof *a->kinds) == 0 &&
+         memcmp(a->corners, b->corners, a->start[elements] * sizeof *a->corners) == 0;
+}
+
 static vsc_status add_meshes(comparison *all, const char *file_a, const char *file_b,
                              vsc_error *error)
 {
@@ -129,15 +137,15 @@ static vsc_status add_meshes(comparison *all, const char *file_a, const char *fi
   if (status == VSC_OK && (a->node_count != b->node_count || a->element_count != b->element_count))
     status =
         vsc_fail(error, VSC_INPUT,
-                 "%s has %zu points and %zu tets, %s has %zu and %zu: only results on the same "
+                 "%s has %zu points and %zu elements, %s has %zu and %zu: only results on the same "
                  "mesh can be compared",
                  file_a, a->node_count, a->element_count, file_b, b->node_count, b->element_count);
-  if (status == VSC_OK && memcmp(a->corners, b->corners, 4 * a->element_count * sizeof *a->corners) != 0)
-    note(all, "tets", "joined to other points or in another order");
+  if (status == VSC_OK && !same_corners(a, b))
+    note(all, "elements", "joined to other points or in another order");
   if (status == VSC_OK)
     status = add(all, "(positions)", "points", 3 * a->node_count, a->nodes, b->nodes, error);
   if (status == VSC_OK) status = add_arrays(all, "points", &a->node_data, &b->node_data, error);
-  if (status == VSC_OK) status = add_arrays(all, "tets", &a->element_data, &b->element_data, error);
+  if (status == VSC_OK) status = add_arrays(all, "elements", &a->element_data, &b->element_data, error);
   vsc_mesh_free(a);
   vsc_mesh_free(b);
   return status;

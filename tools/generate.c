@@ -150,21 +150,20 @@ static bool read_option(wish *wish, int option, const char *text)
 // Writes a mesh with all its arrays, as integers.
 static vsc_status write_mesh(const char *file, const vsc_mesh *mesh, vsc_error *error)
 {
-  const size_t on_nodes = mesh->node_data.count, count = on_nodes + mesh->element_data.count;
+  const vsc_arrays *lists[] = {&mesh->node_data, &mesh->element_data, &mesh->triangle_data};
+  const vsc_vtk_place places[] = {VSC_ON_NODES, VSC_ON_ELEMENTS, VSC_ON_TRIANGLES};
   vsc_vtk_array *arrays;
-  if (!VSC_NEW(arrays, count)) return vsc_fail_memory(error, "the mesh's arrays");
-  for (size_t a = 0; a < count; a++) {
-    const bool node = a < on_nodes;
-    const vsc_array *array = node ? &mesh->node_data.items[a] : &mesh->element_data.items[a - on_nodes];
-    arrays[a] = (vsc_vtk_array){.name = array->name,
-                                .components = array->components,
-                                .values = array->values,
-                                .on_nodes = node,
-                                .integer = true};
-  }
-  const vsc_status status =
-      vsc_vtk_write_mesh(file, mesh->node_count, mesh->nodes, mesh->element_count, mesh->corners,
-                         mesh->triangle_count, mesh->triangles, count, arrays, false, error);
+  size_t count = 0;
+  if (!VSC_NEW(arrays, lists[0]->count + lists[1]->count + lists[2]->count))
+    return vsc_fail_memory(error, "the mesh's arrays");
+  for (int l = 0; l < 3; l++)
+    for (size_t a = 0; a < lists[l]->count; a++)
+      arrays[count++] = (vsc_vtk_array){.name = lists[l]->items[a].name,
+                                        .components = lists[l]->items[a].components,
+                                        .values = lists[l]->items[a].values,
+                                        .place = places[l],
+                                        .integer = true};
+  const vsc_status status = vsc_vtk_write_mesh(file, mesh, count, arrays, false, error);
   vsc_free(arrays);
   return status;
 }

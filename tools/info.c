@@ -83,8 +83,8 @@ static void print_quality(const vsc_mesh *mesh)
   const double *at = q.worst_centre[0];
   printf("  volume                 %g\n", q.volume);
   printf("  edges                  %g to %g\n", q.shortest_edge, q.longest_edge);
-  printf("  quality (mean ratio)   mean %.3f, worst %.3f (cell %u at %g, %g, %g), %zu below 0.2\n",
-         q.mean_ratio_mean, q.worst[0].mean_ratio, q.worst_source[0], at[0], at[1], at[2], q.poor);
+  printf("  quality of shape       mean %.3f, worst %.3f (cell %u at %g, %g, %g), %zu below 0.2\n",
+         q.shape_mean, q.worst[0].shape, q.worst_source[0], at[0], at[1], at[2], q.poor);
   printf("  angles between faces   %.1f to %.1f degrees\n", q.min_dihedral, q.max_dihedral);
 }
 
@@ -92,14 +92,16 @@ static void print_mesh(const vsc_mesh *mesh)
 {
   const vsc_mesh_report *report = &mesh->report;
   printf("  points                 %zu", report->file_nodes);
-  if (report->unused_nodes > 0) printf(", %zu of them on no tet", report->unused_nodes);
-  printf("\n  cells                  %zu: %zu tets, %zu triangles", report->file_cells,
-         mesh->element_count, mesh->triangle_count + report->loose_triangles);
+  if (report->unused_nodes > 0) printf(", %zu of them on no element", report->unused_nodes);
+  char kinds[128];
+  printf("\n  cells                  %zu: %s, %zu triangles", report->file_cells,
+         vsc_mesh_kinds_text(mesh, kinds, sizeof kinds),
+         mesh->triangle_count + report->loose_triangles);
   if (report->ignored_cells > 0)
     printf(", %zu others (%s)", report->ignored_cells, report->ignored_kinds);
   putchar('\n');
-  if (report->turned_tets > 0)
-    printf("  left-handed tets       %zu, turned when read\n", report->turned_tets);
+  if (report->turned_elements > 0)
+    printf("  left-handed elements   %zu, turned when read\n", report->turned_elements);
   if (report->loose_triangles > 0)
     printf("  loose triangles        %zu\n", report->loose_triangles);
   double low[3], high[3];
@@ -112,7 +114,7 @@ static void print_mesh(const vsc_mesh *mesh)
   }
   if (mesh->element_count > 0) print_quality(mesh);
   print_arrays("points", &mesh->node_data);
-  print_arrays("tets", &mesh->element_data);
+  print_arrays("elements", &mesh->element_data);
 }
 
 static vsc_status info_mesh(const char *file, vsc_error *error)

@@ -91,6 +91,19 @@ static vsc_status check_fibers(vsc_reading *reading, const vsc_scene *scene)
   return status;
 }
 
+static vsc_status check_vessels(vsc_reading *reading, const vsc_definition *d)
+{
+  for (size_t i = 0; i < d->vessel_count; i++) {
+    vsc_enter(reading, "vessels");
+    vsc_enter_item(reading, i);
+    vsc_enter(reading, "file");
+    const vsc_status status = vsc_scene_file_exists(reading, d->vessels[i].file);
+    if (status != VSC_OK) return status;
+    vsc_leave(reading, 0);
+  }
+  return VSC_OK;
+}
+
 static vsc_status check_interval(vsc_reading *reading, const char *key, double value, bool zero)
 {
   vsc_enter(reading, key);
@@ -137,5 +150,6 @@ vsc_status vsc_scene_check(vsc_reading *reading, const vsc_scene *scene)
   if (status != VSC_OK) return vsc_reading_locate(reading, &found);
   status = check_pressures(reading, scene);
   if (status == VSC_OK) status = check_fibers(reading, scene);
+  if (status == VSC_OK) status = check_vessels(reading, &scene->definition);
   return status == VSC_OK ? check_output(reading, scene) : status;
 }

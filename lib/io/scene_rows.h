@@ -33,6 +33,7 @@
 extern const vsc_group vsc_surface_group;   // an item of surfaces; vsc_selector
 extern const vsc_group vsc_node_set_group;  // an item of node_sets; vsc_selector
 extern const vsc_group vsc_fiber_group;     // vsc_fiber_def
+extern const vsc_group vsc_vessel_group;    // an item of vessels; vsc_vessel_def
 extern const vsc_group vsc_material_group;  // an item of materials; vsc_material_def
 extern const vsc_group vsc_support_group;   // an item of supports; vsc_support_def
 extern const vsc_group vsc_pressure_group;  // an item of pressures; vsc_pressure_def

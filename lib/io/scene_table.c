@@ -85,6 +85,8 @@ static const vsc_row vsc_scene_group_rows[] = {
      .meaning = "where the fibre axes come from; absent: no fibres"},
     {"materials", SCENE_PARTS(materials, material_count, vsc_material_group),
      .meaning = "tissues"},
+    {"vessels", SCENE_PARTS(vessels, vessel_count, vsc_vessel_group), .commented = true,
+     .meaning = "vessels that the mesh does not resolve"},
     {"volume", CHOICE(vsc_scene, definition.volume, volumes), .text = "nodal",
      .meaning = "elements that share a volume ratio: all round a node; or element: each alone"},
     {"keep_volume", CHOICE(vsc_scene, definition.kept_volume, kept_volumes), .text = "none",

@@ -149,3 +149,29 @@ static const vsc_row vsc_fiber_group_rows[] = {
     {"seed", .kind = VSC_ROW_WHOLE, AT(vsc_fiber_def, seed), .text = "1", .meaning = "random"},
 };
 GROUP(, vsc_fiber_group, -1);
+
+// ---- vessels
+
+static const vsc_row vsc_vessel_group_rows[] = {
+    {"name", NAME(vsc_vessel_def, name), .needed = VSC_ALWAYS, .text = "vein",
+     .meaning = "its part of each element becomes the cell array <name>_fraction"},
+    {"file", .kind = VSC_ROW_PATH, AT(vsc_vessel_def, file), .needed = VSC_ALWAYS,
+     .text = "vein.vtp", .meaning = "closed surface or centre lines, .vtp or legacy .vtk"},
+    {"unit", UNIT(vsc_vessel_def, unit, VSC_LENGTH), .needed = VSC_ALWAYS, .text = "mm",
+     .meaning = "of its coordinates and radii"},
+    {"material", NAME(vsc_vessel_def, material), .needed = VSC_ALWAYS, .text = "vessel",
+     .meaning = "its own; mixed by volume into the tissues that list no inclusions"},
+    {"radius_array", NAME(vsc_vessel_def, radius_array), .text = "radius",
+     .meaning = "centre lines: point array of radii"},
+    {"radius", QUANTITY(vsc_vessel_def, radius, VSC_LENGTH), .commented = true, .text = "2 mm",
+     .meaning = "or one radius; with neither the file is a surface"},
+    {"threshold", NUMBER(vsc_vessel_def, threshold), .text = "0.05",
+     .meaning = "elements with at least this part take its direction as their fibre"},
+};
+
+static void start_vessel(void *target)
+{
+  *(vsc_vessel_def *)target = vsc_default_vessel();
+}
+
+GROUP(, vsc_vessel_group, -1, .size = sizeof(vsc_vessel_def), .start = start_vessel);

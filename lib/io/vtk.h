@@ -10,9 +10,10 @@
 #include "mesh/mesh.h"
 
 // Reads an unstructured grid from .vtu or legacy .vtk, in every encoding that VTK reads, and cleans
-// it (vsc_mesh_clean). Coordinates are multiplied by `unit` (mm per unit). Tets are kept, triangles
-// are kept as surface triangles, other cells are counted and ignored. Every numeric point array
-// comes as node data, every numeric cell array as tet data and as triangle data. VSC_INPUT with the
+// it (vsc_mesh_clean). Coordinates are multiplied by `unit` (mm per unit). Tetrahedra, hexahedra
+// (voxels too), wedges and pyramids become elements; triangles and quads (cut in two) surface
+// triangles; other cells are counted and ignored. Every numeric point array comes as node data,
+// every numeric cell array as element data and as triangle data. VSC_INPUT with the
 // file's name for a missing, truncated, empty or foreign file, arrays of the wrong length and all
 // that vsc_mesh_clean refuses. The caller owns *mesh.
 vsc_status vsc_vtk_read_mesh(const char *file, double unit, vsc_mesh **mesh, vsc_error *error);
@@ -23,23 +24,29 @@ vsc_status vsc_vtk_read_mesh(const char *file, double unit, vsc_mesh **mesh, vsc
 // image without numeric arrays is one. The caller owns *image.
 vsc_status vsc_vtk_read_image(const char *file, double unit, vsc_image **image, vsc_error *error);
 
+// What an array to write lies on.
+typedef enum vsc_vtk_place {
+  VSC_ON_NODES,
+  VSC_ON_ELEMENTS,
+  VSC_ON_TRIANGLES,
+} vsc_vtk_place;
+
 // One array to write, borrowed for the call.
 typedef struct vsc_vtk_array {
   const char *name;
   int components;        // 1 or 3
-  const double *values;  // node_count or element_count tuples
-  bool on_nodes;         // else on tets
+  const double *values;  // a tuple for each node, element or triangle
+  vsc_vtk_place place;
   bool integer;          // written as Int32
 } vsc_vtk_array;
 
-// Writes nodes, tets, triangles (behind the tets; 0 of them are fine) and arrays as .vtu: inline
+// Writes a mesh's nodes, elements, triangles (behind the elements) and the given arrays as .vtu: inline
 // binary (Debian 12's ParaView cannot read appended data since its expat was updated), zlib, UInt64
 // headers, Float32 or (double_precision) Float64; to a temporary name in the same folder, renamed
-// when complete. Arrays on tets are 0 on the triangles. VSC_SYSTEM when the file cannot be written;
-// what was there before stays then.
-vsc_status vsc_vtk_write_mesh(const char *file, size_t node_count, const double *nodes,
-                              size_t element_count, const uint32_t *tets, size_t triangle_count,
-                              const uint32_t *triangles, size_t array_count,
+// when complete. Arrays on elements are 0 on the triangles, and the other way round. The mesh's own
+// arrays are not written. VSC_SYSTEM when the file cannot be written; what was there before stays
+// then.
+vsc_status vsc_vtk_write_mesh(const char *file, const vsc_mesh *mesh, size_t array_count,
                               const vsc_vtk_array *arrays, bool double_precision, vsc_error *error);
 
 // Writes an image with all its arrays as .vti, in the same way; arrays are Float32.

@@ -71,30 +71,59 @@ static const char *next_word(const char *at, const char *end)
   return at;
 }
 
-// `text` ends with a zero at `end`. The list is where a word begins with "cells" and two numbers
-// follow, as VTK sees it.
+// The word, of those that begin a list, that `word` begins with; NULL when it is none.
+static const char *list_name(const char *word, bool polydata)
+{
+  static const char *const of_polydata[] = {"VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS"};
+  if (!polydata) return strncasecmp(word, "cells", 5) == 0 ? "CELLS" : NULL;
+  for (size_t i = 0; i < sizeof of_polydata / sizeof of_polydata[0]; i++)
+    if (strncasecmp(word, of_polydata[i], strlen(of_polydata[i])) == 0) return of_polydata[i];
+  return NULL;
+}
+
+// The list `name` whose name is `*word`; *word is moved behind what was understood. A name that no
+// two numbers follow is none.
+static vsc_status check_list(const char *file, const char *name, bool binary, const char **word,
+                             const char *end, vsc_error *error)
+{
+  long long count, size;
+  int used = 0;
+  const char *numbers = next_word(*word, end);
+  if (sscanf(numbers, "%lld %lld%n", &count, &size, &used) != 2) return VSC_OK;
+  const char *list = next_word(numbers + used, end);
+  *word = list;
+  if (strncasecmp(list, "offsets", 7) == 0) return VSC_OK;
+  if (binary) list = next_line(numbers + used, end);
+  if (!fills((reading){list, end, binary}, count, size))
+    return vsc_fail(error, VSC_INPUT,
+                    "%s: the cells do not fill the list announced by %s %lld %lld (cells, "
+                    "numbers with the lengths): correct that line or write the file again",
+                    file, name, count, size);
+  if (binary) *word = list + 4 * size;
+  return VSC_OK;
+}
+
+// `text` ends with a zero at `end`. A list is where a word begins with its name and two numbers
+// follow, as VTK sees it; of an unstructured grid's, the first counts.
 static vsc_status check_text(const char *file, const char *text, const char *end, vsc_error *error)
 {
   const char *word = next_line(next_line(text, end), end);
   const bool binary = strncasecmp(word, "binary", 6) == 0;
-  for (; word < end; word = next_word(word, end)) {
-    long long count, size;
-    int used = 0;
+  bool polydata = false;
+  while (word < end) {
+    if (strncasecmp(word, "dataset", 7) == 0)
+      polydata = strncasecmp(next_word(word, end), "polydata", 8) == 0;
+    if (polydata && strncasecmp(word, "point_data", 10) == 0) return VSC_OK;
     if (strncasecmp(word, "cell_types", 10) == 0)
       return vsc_fail(error, VSC_INPUT,
                       "%s: has CELL_TYPES but no CELLS before them: write the file again", file);
-    if (strncasecmp(word, "cells", 5) != 0) continue;
-    const char *numbers = next_word(word, end);
-    if (sscanf(numbers, "%lld %lld%n", &count, &size, &used) != 2) continue;
-    const char *list = next_word(numbers + used, end);
-    if (strncasecmp(list, "offsets", 7) == 0) return VSC_OK;
-    if (binary) list = next_line(numbers + used, end);
-    if (!fills((reading){list, end, binary}, count, size))
-      return vsc_fail(error, VSC_INPUT,
-                      "%s: the cells do not fill the list announced by CELLS %lld %lld (cells, "
-                      "numbers with the lengths): correct that line or write the file again",
-                      file, count, size);
-    return VSC_OK;
+    const char *name = list_name(word, polydata), *former = word;
+    if (name != NULL) {
+      const vsc_status status = check_list(file, name, binary, &word, end, error);
+      if (status != VSC_OK || (!polydata && word != former)) return status;
+    }
+    if (word == former) word = next_word(word, end);
+    while (word < end && isspace((unsigned char)*word)) word++;
   }
   return VSC_OK;
 }

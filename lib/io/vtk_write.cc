@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The writing half of vtk.h.
+#include <algorithm>
 #include <climits>
 #include <cmath>
 #include <cstdint>
@@ -15,16 +16,19 @@
 #include <vtkIntArray.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkPolyData.h>
 #include <vtkTypeInt32Array.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLImageDataWriter.h>
+#include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
 extern "C" {
 #include "io/replace.h"
 #include "io/vtk.h"
+#include "io/vtk_polydata.h"
 }
 #include "io/vtk_quiet.hh"
 
@@ -43,53 +47,57 @@ int to_int(double value)
   return (int)std::lrint(std::fmin(std::fmax(value, INT_MIN), INT_MAX));
 }
 
-// A VTK array of type `Array` with `given` tuples of values, followed by zeros up to `tuples`.
+// A VTK array of type `Array`: `tuples` tuples of zeros, into which `given` of values go behind the
+// first `before`.
 template <typename Array>
-vtkSmartPointer<vtkDataArray> make_array(const char *name, int components, size_t given,
-                                         size_t tuples, const double *values)
+vtkSmartPointer<vtkDataArray> make_array(const char *name, int components, size_t before,
+                                         size_t given, size_t tuples, const double *values)
 {
   vtkNew<Array> array;
   array->SetName(name);
   array->SetNumberOfComponents(components);
   array->SetNumberOfTuples((vtkIdType)tuples);
-  auto *to = array->GetPointer(0);
-  const size_t numbers = given * (size_t)components, all = tuples * (size_t)components;
-  for (size_t i = 0; i < numbers; i++) {
+  using number = typename Array::ValueType;
+  number *to = array->GetPointer(0);
+  const size_t width = (size_t)components;
+  std::fill(to, to + tuples * width, number(0));
+  to += before * width;
+  for (size_t i = 0; i < given * width; i++) {
     if constexpr (std::is_same_v<Array, vtkIntArray>) to[i] = to_int(values[i]);
-    else to[i] = static_cast<typename Array::ValueType>(values[i]);
+    else to[i] = static_cast<number>(values[i]);
   }
-  for (size_t i = numbers; i < all; i++) to[i] = 0;
   return vtkSmartPointer<vtkDataArray>(array.GetPointer());
 }
 
-vtkSmartPointer<vtkDataArray> make_real(const char *name, int components, size_t given,
-                                        size_t tuples, const double *values, bool double_precision)
+vtkSmartPointer<vtkDataArray> make_real(const char *name, int components, size_t before,
+                                        size_t given, size_t tuples, const double *values,
+                                        bool double_precision)
 {
   return double_precision
-           ? make_array<vtkDoubleArray>(name, components, given, tuples, values)
-           : make_array<vtkFloatArray>(name, components, given, tuples, values);
+           ? make_array<vtkDoubleArray>(name, components, before, given, tuples, values)
+           : make_array<vtkFloatArray>(name, components, before, given, tuples, values);
 }
 
-// The tets followed by the triangles, as cells.
-template <typename Array>
-void set_cells(vtkUnstructuredGrid *grid, size_t element_count, const uint32_t *tets,
-               size_t triangle_count, const uint32_t *triangles)
+constexpr int CELL_TYPES[VSC_CELLS] = {VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE, VTK_PYRAMID};
+
+// The elements followed by the triangles, as cells.
+template <typename Array> void set_cells(vtkUnstructuredGrid *grid, const vsc_mesh *mesh)
 {
-  const size_t corners = 4 * element_count + 3 * triangle_count;
+  const size_t elements = mesh->element_count, triangles = mesh->triangle_count;
+  const size_t corners = mesh->start[elements];
   vtkNew<Array> offsets, points;
   vtkNew<vtkUnsignedCharArray> types;
-  offsets->SetNumberOfValues((vtkIdType)(element_count + triangle_count + 1));
-  points->SetNumberOfValues((vtkIdType)corners);
-  types->SetNumberOfValues((vtkIdType)(element_count + triangle_count));
+  offsets->SetNumberOfValues((vtkIdType)(elements + triangles + 1));
+  points->SetNumberOfValues((vtkIdType)(corners + 3 * triangles));
+  types->SetNumberOfValues((vtkIdType)(elements + triangles));
   using number = typename Array::ValueType;
   number *start = offsets->GetPointer(0), *point = points->GetPointer(0);
-  start[0] = 0;
-  for (size_t i = 0; i < element_count + triangle_count; i++) {
-    start[i + 1] = start[i] + (i < element_count ? 4 : 3);
-    types->SetValue((vtkIdType)i, i < element_count ? VTK_TETRA : VTK_TRIANGLE);
-  }
-  for (size_t i = 0; i < 4 * element_count; i++) *point++ = (number)tets[i];
-  for (size_t i = 0; i < 3 * triangle_count; i++) *point++ = (number)triangles[i];
+  for (size_t i = 0; i <= elements; i++) start[i] = (number)mesh->start[i];
+  for (size_t i = 0; i < triangles; i++) start[elements + i + 1] = (number)(corners + 3 * (i + 1));
+  for (size_t i = 0; i < elements + triangles; i++)
+    types->SetValue((vtkIdType)i, (unsigned char)(i < elements ? CELL_TYPES[mesh->kinds[i]] : VTK_TRIANGLE));
+  for (size_t i = 0; i < corners; i++) *point++ = (number)mesh->corners[i];
+  for (size_t i = 0; i < 3 * triangles; i++) *point++ = (number)mesh->triangles[i];
   vtkNew<vtkCellArray> cells;
   cells->SetData(offsets, points);
   grid->SetCells(types, cells);
@@ -138,29 +146,35 @@ vsc_status write_file(const char *file, vtkDataObject *object, vsc_error *error)
                   quiet.said().c_str());
 }
 
-vsc_status write_mesh(const char *file, size_t node_count, const double *nodes, size_t element_count,
-                      const uint32_t *tets, size_t triangle_count, const uint32_t *triangles,
-                      size_t array_count, const vsc_vtk_array *arrays, bool double_precision,
-                      vsc_error *error)
+vtkSmartPointer<vtkDataArray> place_array(const vsc_mesh *mesh, const vsc_vtk_array *from,
+                                          bool double_precision)
 {
-  const size_t cell_count = element_count + triangle_count;
+  const size_t elements = mesh->element_count, cells = elements + mesh->triangle_count;
+  const bool on_nodes = from->place == VSC_ON_NODES, on_elements = from->place == VSC_ON_ELEMENTS;
+  const size_t tuples = on_nodes ? mesh->node_count : cells;
+  const size_t before = on_nodes || on_elements ? 0 : elements;
+  const size_t given = on_nodes ? mesh->node_count : on_elements ? elements : mesh->triangle_count;
+  return from->integer ? make_array<vtkIntArray>(from->name, from->components, before, given, tuples,
+                                                 from->values)
+                       : make_real(from->name, from->components, before, given, tuples,
+                                   from->values, double_precision);
+}
+
+vsc_status write_mesh(const char *file, const vsc_mesh *mesh, size_t array_count,
+                      const vsc_vtk_array *arrays, bool double_precision, vsc_error *error)
+{
+  const size_t nodes = mesh->node_count;
   vtkNew<vtkUnstructuredGrid> grid;
   vtkNew<vtkPoints> points;
-  points->SetData(make_real("Points", 3, node_count, node_count, nodes, double_precision));
+  points->SetData(make_real("Points", 3, 0, nodes, nodes, mesh->nodes, double_precision));
   grid->SetPoints(points);
-  if (node_count <= INT32_MAX && 4 * cell_count <= INT32_MAX)
-    set_cells<vtkTypeInt32Array>(grid, element_count, tets, triangle_count, triangles);
+  if (nodes <= INT32_MAX && mesh->start[mesh->element_count] + 3 * mesh->triangle_count <= INT32_MAX)
+    set_cells<vtkTypeInt32Array>(grid, mesh);
   else
-    set_cells<vtkTypeInt64Array>(grid, element_count, tets, triangle_count, triangles);
+    set_cells<vtkTypeInt64Array>(grid, mesh);
   for (size_t i = 0; i < array_count; i++) {
-    const vsc_vtk_array *from = &arrays[i];
-    const size_t given = from->on_nodes ? node_count : element_count;
-    const size_t tuples = from->on_nodes ? node_count : cell_count;
-    vtkSmartPointer<vtkDataArray> array =
-      from->integer
-        ? make_array<vtkIntArray>(from->name, from->components, given, tuples, from->values)
-        : make_real(from->name, from->components, given, tuples, from->values, double_precision);
-    if (from->on_nodes) grid->GetPointData()->AddArray(array);
+    vtkSmartPointer<vtkDataArray> array = place_array(mesh, &arrays[i], double_precision);
+    if (arrays[i].place == VSC_ON_NODES) grid->GetPointData()->AddArray(array);
     else grid->GetCellData()->AddArray(array);
   }
   return write_file<vtkXMLUnstructuredGridWriter>(file, grid, error);
@@ -180,22 +194,54 @@ vsc_status write_image(const char *file, const vsc_image *image, vsc_error *erro
   grid->SetDirectionMatrix(image->direction);
   for (size_t i = 0; i < image->data.count; i++) {
     const vsc_array *from = &image->data.items[i];
-    grid->GetPointData()->AddArray(make_array<vtkFloatArray>(from->name, from->components, points,
-                                                             points, from->values));
+    grid->GetPointData()->AddArray(make_array<vtkFloatArray>(from->name, from->components, 0,
+                                                             points, points, from->values));
   }
   return write_file<vtkXMLImageDataWriter>(file, grid, error);
 }
 
+vtkSmartPointer<vtkCellArray> make_cells(size_t count, int corners, const uint32_t *numbers)
+{
+  vtkNew<vtkTypeInt64Array> offsets, points;
+  offsets->SetNumberOfValues((vtkIdType)count + 1);
+  points->SetNumberOfValues((vtkIdType)count * corners);
+  for (size_t i = 0; i <= count; i++) offsets->SetValue((vtkIdType)i, (vtkIdType)i * corners);
+  for (size_t i = 0; i < count * (size_t)corners; i++) points->SetValue((vtkIdType)i, numbers[i]);
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(offsets, points);
+  return vtkSmartPointer<vtkCellArray>(cells.GetPointer());
+}
+
+vsc_status write_polydata(const char *file, const vsc_polydata *from, vsc_error *error)
+{
+  vtkNew<vtkPolyData> data;
+  vtkNew<vtkPoints> points;
+  points->SetData(make_array<vtkFloatArray>("Points", 3, 0, from->point_count,
+                                            from->point_count, from->points));
+  data->SetPoints(points);
+  if (from->triangle_count > 0)
+    data->SetPolys(make_cells(from->triangle_count, 3, from->triangles));
+  if (from->segment_count > 0) data->SetLines(make_cells(from->segment_count, 2, from->segments));
+  for (size_t i = 0; i < from->point_data.count; i++) {
+    const vsc_array *array = &from->point_data.items[i];
+    data->GetPointData()->AddArray(make_array<vtkFloatArray>(
+      array->name, array->components, 0, from->point_count, from->point_count, array->values));
+  }
+  return write_file<vtkXMLPolyDataWriter>(file, data, error);
+}
+
 }  // namespace
 
-vsc_status vsc_vtk_write_mesh(const char *file, size_t node_count, const double *nodes,
-                              size_t element_count, const uint32_t *tets, size_t triangle_count,
-                              const uint32_t *triangles, size_t array_count,
+vsc_status vsc_vtk_write_polydata(const char *file, const vsc_polydata *polydata, vsc_error *error)
+{
+  return guarded(file, error, [&] { return write_polydata(file, polydata, error); });
+}
+
+vsc_status vsc_vtk_write_mesh(const char *file, const vsc_mesh *mesh, size_t array_count,
                               const vsc_vtk_array *arrays, bool double_precision, vsc_error *error)
 {
   return guarded(file, error, [&] {
-    return write_mesh(file, node_count, nodes, element_count, tets, triangle_count, triangles,
-                      array_count, arrays, double_precision, error);
+    return write_mesh(file, mesh, array_count, arrays, double_precision, error);
   });
 }
 

@@ -6,22 +6,29 @@
 #include "mech/state.h"
 #include "model/law_springs.h"
 
-// G = sum_i B_ai x_i of four tets, from node x 4 numbers in the model's order.
-VSC_INLINE void vsc_pack_axes(const vsc_model *model, const vsc_patch *patch, const vsc_pack *pack,
+// G = sum_i B_ai x_i of frame `q` of four cells, from node x 4 numbers in the model's order.
+VSC_INLINE void vsc_pack_axes(const vsc_model *model, const vsc_patch *patch, size_t k, int q,
                               const double *nodes, vsc_wide3 g[3])
 {
-  vsc_wide3 edge[3];
+  const uint16_t(*node)[VSC_WIDTH] = vsc_pack_nodes(model, patch, k);
+  const vsc_frame *frame = vsc_pack_frames(model, patch, k) + q;
+  const int corners = vsc_family_corners(patch->family);
+  vsc_wide3 h[3] = {0};
   for (int l = 0; l < VSC_WIDTH; l++) {
-    const double *first = nodes + 4 * (size_t)vsc_node_of(model, patch, pack->node[0][l]);
-    for (int i = 0; i < 3; i++) {
-      const double *other = nodes + 4 * (size_t)vsc_node_of(model, patch, pack->node[i + 1][l]);
-      edge[i].x[l] = other[0] - first[0];
-      edge[i].y[l] = other[1] - first[1];
-      edge[i].z[l] = other[2] - first[2];
+    const double *first = nodes + 4 * (size_t)vsc_node_of(model, patch, node[0][l]);
+    for (int c = 1; c < corners; c++) {
+      const double *x = nodes + 4 * (size_t)vsc_node_of(model, patch, node[c][l]);
+      for (int i = 0; i < 3; i++) {
+        // sum_c D_c = 0: seen from the first corner, so that distant bodies lose no digits
+        const double D = model->rules[patch->family].D[q][i][c];
+        h[i].x[l] += D * (x[0] - first[0]);
+        h[i].y[l] += D * (x[1] - first[1]);
+        h[i].z[l] += D * (x[2] - first[2]);
+      }
     }
   }
   for (int a = 0; a < 3; a++)
-    g[a] = vsc_wide_combine(pack->B[a][0], edge[0], pack->B[a][1], edge[1], pack->B[a][2], edge[2]);
+    g[a] = vsc_wide_combine(frame->T[a][0], h[0], frame->T[a][1], h[1], frame->T[a][2], h[2]);
 }
 
 // det G
@@ -30,23 +37,23 @@ VSC_INLINE vsc_wide vsc_pack_ratio(const vsc_wide3 g[3])
   return vsc_wide_dot(g[0], vsc_wide_cross(g[1], g[2]));
 }
 
-// Active tension of a slot at fibre stretch `stretch`, kPa: T, or what the active spring adds to
-// the passive one, E_f(t) (stretch - r(t)) - E_f (stretch - 1). `nominal` is the same as force per
-// area at rest.
-static inline double vsc_active_tension(const vsc_model *model, const vsc_material *material,
-                                        size_t slot, double time, double stretch, double *nominal)
-{
-  *nominal = 0;
-  if (material->active == VSC_ACTIVE_NONE || model->mesh_element[slot] == VSC_NO_ELEMENT) return 0;
-  const double a = vsc_model_activation(model, material, slot, time);
-  if (material->active == VSC_ACTIVE_TENSION) {
-    *nominal = a * material->tension * stretch;
-    return a * material->tension;
-  }
-  const double E = material->axial[0] + a * (material->active_stiffness - material->axial[0]);
-  const double rest = 1 - a * (1 - material->rest_stretch);
-  *nominal = E * (stretch - rest) - material->axial[0] * (stretch - 1);
-  return *nominal;
-}
+// The passive springs of a pack as moduli, and the fibre's at full activation. Law PAPER's constants
+// become what they weigh in this element: E_a = k r_a^2 / V, G_ab = k (r_a + r_b) / 2V.
+typedef struct vsc_pack_law {
+  vsc_springs springs;
+  vsc_wide damping[3];     // kPa ms
+  vsc_wide active_axial;   // kPa
+  vsc_wide volume_modulus, stabilization, element_modulus;
+  vsc_wide share;  // of the own material: 1 without inclusions
+} vsc_pack_law;
+
+// Not inlined: called once for a pack.
+vsc_pack_law vsc_pack_law_of(const vsc_model *model, const vsc_patch *patch, size_t k);
+
+// Active tension of one frame (`lane` of a pack with the given law) at fibre stretch `stretch` and
+// activation `a`, kPa: T, or what the active spring adds to the passive one,
+// E_f(t) (stretch - r(t)) - E_f (stretch - 1). `nominal` is the same as force per area at rest.
+double vsc_active_tension(const vsc_material *material, const vsc_pack_law *law, int lane, double a,
+                          double stretch, double *nominal);
 
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <string.h>
 
+#include "base/vec3.h"
 #include "mech/element.h"
 #include "mech/force.h"
 #include "mech/observe.h"
@@ -31,7 +32,7 @@ static void read_nodes(const vsc_model *model, vsc_state *state, vsc_field field
   for (size_t n = 0; n < model->node_count; n++) {
     const size_t node = model->mesh_node[n];
     if (field == VSC_FIELD_GROUP_RATIO) {
-      values[node] = model->terms.nodal_volume ? ratio[n] : 1;
+      values[node] = model->terms.nodal_volume && model->group_modulus[n] > 0 ? ratio[n] : 1;
       continue;
     }
     for (int i = 0; i < 3; i++)
@@ -41,49 +42,79 @@ static void read_nodes(const vsc_model *model, vsc_state *state, vsc_field field
   }
 }
 
-static void read_slot(const vsc_model *model, const vsc_state *state, const vsc_material *material,
-                      const vsc_frame_axes *frame, double J, vsc_field field, size_t slot,
-                      double *value)
+// What the frames of an element show, as their mean by volume.
+typedef struct element_means {
+  vsc_wide3 u[3];  // not of unit length
+  vsc_wide J, stretch, tension, volume;
+} element_means;
+
+static element_means mean_of_frames(const vsc_model *model, const vsc_state *state,
+                                    const vsc_patch *patch, size_t k)
+{
+  const vsc_material *material = &model->materials[patch->material];
+  const bool active = material->active != VSC_ACTIVE_NONE;
+  vsc_pack_law law;
+  if (active) law = vsc_pack_law_of(model, patch, k);
+  element_means mean = {0};
+  for (int q = 0; q < vsc_family_frames(model, patch->family); q++) {
+    const vsc_wide V = vsc_pack_frames(model, patch, k)[q].V;
+    vsc_wide3 g[3];
+    vsc_pack_axes(model, patch, k, q, state->x, g);
+    const vsc_frame_axes frame = vsc_frame_of(g);
+    for (int a = 0; a < 3; a++) mean.u[a] = vsc_wide_add(mean.u[a], vsc_wide_scale(V, frame.u[a]));
+    mean.J += V * vsc_pack_ratio(g);
+    mean.stretch += V * frame.length[0];
+    mean.volume += V;
+    for (int l = 0; active && l < VSC_WIDTH; l++) {
+      const size_t slot = VSC_WIDTH * k + (size_t)l;
+      double nominal;
+      if (model->mesh_element[slot] == VSC_NO_ELEMENT) continue;
+      const double a = vsc_model_activation(model, material, slot, state->time);
+      mean.tension[l] +=
+          V[l] * vsc_active_tension(material, &law, l, a, frame.length[0][l], &nominal);
+    }
+  }
+  return mean;
+}
+
+static void read_slot(const vsc_model *model, const element_means *mean, vsc_field field,
+                      size_t slot, double *value)
 {
   const int l = (int)(slot % VSC_WIDTH);
-  double nominal;
   switch (field) {
     case VSC_FIELD_ACTIVE_TENSION:
-      *value =
-          vsc_active_tension(model, material, slot, state->time, frame->length[0][l], &nominal);
+      *value = mean->tension[l] / mean->volume[l];
       break;
     case VSC_FIELD_STRETCH:
-      *value = frame->length[0][l];
+      *value = mean->stretch[l] / mean->volume[l];
       break;
     case VSC_FIELD_VOLUME_RATIO:
-      *value = J;
+      *value = mean->J[l] / mean->volume[l];
       break;
     default: {
-      const vsc_wide3 *u = &frame->u[field - VSC_FIELD_FIBER];
-      const double known = model->known[slot];
-      value[0] = known * u->x[l];
-      value[1] = known * u->y[l];
-      value[2] = known * u->z[l];
+      const vsc_wide3 *u = &mean->u[field - VSC_FIELD_FIBER];
+      value[0] = u->x[l];
+      value[1] = u->y[l];
+      value[2] = u->z[l];
+      vsc_normalize(value);
+      for (int i = 0; i < 3; i++) value[i] *= model->known[slot];
     }
   }
 }
 
-static void read_tets(const vsc_model *model, const vsc_state *state, vsc_field field,
-                      double *values)
+static void read_elements(const vsc_model *model, const vsc_state *state, vsc_field field,
+                          double *values)
 {
   const int components = vsc_field_components(field);
   for (size_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];
+    if (!vsc_patch_is_solid(patch)) continue;
     for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++) {
-      vsc_wide3 g[3];
-      vsc_pack_axes(model, patch, &model->packs[k], state->x, g);
-      const vsc_frame_axes frame = vsc_frame_of(g);
-      const vsc_wide J = vsc_pack_ratio(g);
+      const element_means mean = mean_of_frames(model, state, patch, k);
       for (int l = 0; l < VSC_WIDTH; l++) {
-        const size_t slot = VSC_WIDTH * k + l, tet = model->mesh_element[slot];
-        if (tet == VSC_NO_ELEMENT) continue;
-        read_slot(model, state, &model->materials[patch->material], &frame, J[l], field, slot,
-                  values + components * tet);
+        const size_t slot = VSC_WIDTH * k + (size_t)l, element = model->mesh_element[slot];
+        if (element == VSC_NO_ELEMENT) continue;
+        read_slot(model, &mean, field, slot, values + (size_t)components * element);
       }
     }
   }
@@ -94,5 +125,5 @@ void vsc_read_field(const vsc_model *model, vsc_state *state, vsc_field field, d
   if (vsc_field_on_nodes(field))
     read_nodes(model, state, field, values);
   else
-    read_tets(model, state, field, values);
+    read_elements(model, state, field, values);
 }

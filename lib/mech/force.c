@@ -86,7 +86,7 @@ static size_t fill_activation(const evaluation *e, const vsc_patch *patch, vsc_w
 {
   const vsc_model *model = e->model;
   const vsc_material *material = &model->materials[patch->material];
-  if (material->active == VSC_ACTIVE_NONE) {
+  if (material->active == VSC_ACTIVE_NONE || !vsc_patch_is_solid(patch)) {
     activation[0] = vsc_splat(0);
     return 0;
   }
@@ -112,47 +112,81 @@ static void patch_volume(void *context, size_t p, int thread)
   const evaluation *e = context;
   const vsc_patch *patch = &e->model->patches[p];
   const local_arrays local = local_of(e, thread);
-  gather(e->model, patch, e->x, local.x);
   const size_t count = patch->own_count + patch->shared_count;
   memset(local.f, 0, count * sizeof *local.f);
-  const vsc_patch_work work = {.packs = e->model->packs + patch->first_pack,
-                               .pack_count = patch->pack_count,
-                               .x = local.x,
-                               .volume = local.f};
-  vsc_volume_kernel()(&work);
+  if (vsc_patch_shares_volume(e->model, patch)) {
+    gather(e->model, patch, e->x, local.x);
+    const vsc_patch_work work = {.packs = e->model->store + patch->packs,
+                                 .pack_count = patch->pack_count,
+                                 .x = local.x,
+                                 .volume = local.f};
+    vsc_volume_kernel()(&work);
+  }
   memcpy(e->scratch->volume + patch->first_node, local.f, patch->own_count * sizeof *local.f);
   memcpy(e->scratch->partial_volume + patch->first_shared, local.f + patch->own_count,
          patch->shared_count * sizeof *local.f);
 }
 
+// Whether anything in the patch resists velocity.
+static bool is_damped(const vsc_model *model, const vsc_patch *patch)
+{
+  const vsc_material *m = &model->materials[patch->material];
+  if (patch->family == VSC_SPRINGS_ON_EDGES) return m->classical.damping > 0;
+  if (m->law == VSC_LAW_PAPER)
+    return m->paper.damping[0] > 0 || m->paper.damping[1] > 0 || m->paper.damping[2] > 0 ||
+           m->paper.volume_damping > 0;
+  if (m->damping[0] > 0 || m->damping[1] > 0 || m->damping[2] > 0 || patch->mixed) return true;
+  for (size_t d = 0; d < m->axis_count; d++)
+    if (model->axes[m->first_axis + d].damping > 0) return true;
+  return false;
+}
+
+// The patch's work, with only what its kernel reads gathered.
+static vsc_patch_work prepare(const evaluation *e, const vsc_patch *patch, const local_arrays *local,
+                              vsc_kernel_choice *choice)
+{
+  const vsc_model *model = e->model;
+  const vsc_material *material = &model->materials[patch->material];
+  const size_t stride = fill_activation(e, patch, local->activation);
+  const bool passive = stride == 0 && local->activation[0][0] == 0;
+  *choice = (vsc_kernel_choice){
+      .family = patch->family,
+      .law = material->law,
+      .damping = e->w != NULL && is_damped(model, patch),
+      .active = passive ? VSC_ACTIVE_NONE : material->active,
+      .nodal_volume = vsc_patch_shares_volume(model, patch),
+      .composed = patch->mixed || material->axis_count + material->pair_count > 0};
+  gather(model, patch, e->x, local->x);
+  if (choice->damping) gather(model, patch, e->w, local->w);
+  if (choice->nodal_volume) gather_pressures(e, patch, local->pressure);
+  return (vsc_patch_work){
+      .packs = model->store + patch->packs,
+      .pack_count = patch->pack_count,
+      .material = material,
+      .rule = vsc_patch_is_solid(patch) ? &model->rules[patch->family] : NULL,
+      .axes = model->axes + material->first_axis,
+      .pairs = model->pairs + material->first_pair,
+      .mixtures = patch->mixed ? vsc_pack_mixture(model, patch, patch->first_pack) : NULL,
+      .law_data = patch->law_data ? model->store + patch->law_data : NULL,
+      .x = local->x,
+      .w = local->w,
+      .f = local->f,
+      .pressure = local->pressure,
+      .activation = local->activation,
+      .activation_stride = stride};
+}
+
 static void patch_force(void *context, size_t p, int thread)
 {
   const evaluation *e = context;
-  const vsc_model *model = e->model;
-  const vsc_patch *patch = &model->patches[p];
-  const vsc_material *material = &model->materials[patch->material];
+  const vsc_patch *patch = &e->model->patches[p];
   const local_arrays local = local_of(e, thread);
   const size_t count = patch->own_count + patch->shared_count;
-  // only what this material has is gathered and computed
-  const bool damping = e->w != NULL && (material->damping[0] > 0 || material->damping[1] > 0 ||
-                                        material->damping[2] > 0);
-  const size_t stride = fill_activation(e, patch, local.activation);
-  const bool passive = stride == 0 && local.activation[0][0] == 0;
-  gather(model, patch, e->x, local.x);
-  if (damping) gather(model, patch, e->w, local.w);
-  if (model->terms.nodal_volume) gather_pressures(e, patch, local.pressure);
+  vsc_kernel_choice choice;
   memset(local.f, 0, 4 * count * sizeof *local.f);
-  const vsc_patch_work work = {.packs = model->packs + patch->first_pack,
-                               .pack_count = patch->pack_count,
-                               .material = material,
-                               .x = local.x,
-                               .w = local.w,
-                               .f = local.f,
-                               .pressure = local.pressure,
-                               .activation = local.activation,
-                               .activation_stride = stride};
-  vsc_force_kernel(damping, passive ? VSC_ACTIVE_NONE : material->active,
-                   model->terms.nodal_volume)(&work);
+  const vsc_patch_work work = prepare(e, patch, &local, &choice);
+  vsc_patch_kernel *kernel = vsc_force_kernel(&choice);
+  if (kernel != NULL) kernel(&work);
   memcpy(e->force + 4 * (size_t)patch->first_node, local.f, 4 * patch->own_count * sizeof *local.f);
   memcpy(e->scratch->partial + 4 * (size_t)patch->first_shared,
          local.f + 4 * (size_t)patch->own_count, 4 * patch->shared_count * sizeof *local.f);

@@ -11,9 +11,24 @@ static const vsc_kernels *kernels(void)
   return &vsc_kernels_baseline;
 }
 
-vsc_patch_kernel *vsc_force_kernel(bool damping, vsc_active_kind active, bool nodal_volume)
+static vsc_patch_kernel *cell_kernel(const vsc_kernels *set, const vsc_kernel_choice *c)
 {
-  return kernels()->force[damping][active][nodal_volume];
+  if (c->law == VSC_LAW_CLASSICAL) return NULL;
+  if (c->law == VSC_LAW_PAPER)
+    return c->family == VSC_TETS ? set->paper_tets[c->damping] : set->paper_hexes[c->damping];
+  if (c->family == VSC_TETS) return set->tets[c->composed][c->damping][c->active][c->nodal_volume];
+  return set->solids[c->damping][c->family - VSC_HEXES];
+}
+
+vsc_patch_kernel *vsc_force_kernel(const vsc_kernel_choice *choice)
+{
+  const vsc_kernels *set = kernels();
+  switch (choice->family) {
+    case VSC_SPRINGS_ON_EDGES:
+      return set->springs[choice->damping];
+    default:
+      return cell_kernel(set, choice);
+  }
 }
 
 vsc_patch_kernel *vsc_volume_kernel(void)

@@ -9,11 +9,16 @@
 
 // A patch with its nodes gathered: x, w and f are node x 4, aligned to 32 bytes.
 typedef struct vsc_patch_work {
-  const vsc_pack *packs;
+  const void *packs;  // of the patch's family
   size_t pack_count;
   const vsc_material *material;
-  const double *x;         // positions, mm
-  const double *w;         // velocities, mm/ms; used with damping
+  const vsc_cell_rule *rule;    // of its cells; used by all cells but tets
+  const vsc_axis *axes;         // the material's further axes and pairs
+  const vsc_pair *pairs;
+  const vsc_mixture *mixtures;  // of each pack; NULL: the material's own moduli
+  const void *law_data;         // law PAPER: vsc_chords or vsc_hex_axes of each pack
+  const double *x;              // positions, mm
+  const double *w;              // velocities, mm/ms; used with damping
   const double *pressure;  // U'(J) of the nodes' volume groups, kPa; used with node-averaged volume
   const vsc_wide
       *activation;  // of each pack, or of all when activation_stride is 0; used when active
@@ -24,8 +29,19 @@ typedef struct vsc_patch_work {
 
 typedef void vsc_patch_kernel(const vsc_patch_work *work);
 
-// The force kernel for a combination of terms, for the processor this runs on.
-vsc_patch_kernel *vsc_force_kernel(bool damping, vsc_active_kind active, bool nodal_volume);
+// Which kernel a patch needs.
+typedef struct vsc_kernel_choice {
+  uint32_t family;  // a vsc_family
+  vsc_law law;
+  bool damping;
+  vsc_active_kind active;
+  bool nodal_volume;
+  bool composed;  // further axes or pairs, or inclusions
+} vsc_kernel_choice;
+
+// The force kernel for the processor this runs on; NULL where the patch itself has no force (cells
+// of law CLASSICAL).
+vsc_patch_kernel *vsc_force_kernel(const vsc_kernel_choice *choice);
 
 // The kernel that adds a quarter of each tet's deformed volume to its nodes' `volume`.
 vsc_patch_kernel *vsc_volume_kernel(void);

@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/vec3.h"
 #include "mech/element.h"
+#include "mech/energies.h"
 #include "mech/force.h"
 #include "model/law_volume.h"
 
@@ -17,7 +18,7 @@ vsc_status vsc_ledger_create(const vsc_model *model, vsc_ledger **ledger, vsc_er
   size_t triangles = 0;
   for (size_t p = 0; p < model->pressure_count; p++)
     triangles += model->pressures[p].triangle_count;
-  const size_t slots = model->terms.active != VSC_ACTIVE_NONE ? VSC_WIDTH * model->pack_count : 0;
+  const size_t slots = model->terms.active != VSC_ACTIVE_NONE ? VSC_WIDTH * model->frame_count : 0;
   vsc_ledger *made;
   *ledger = NULL;
   if (!VSC_NEW(made, 1) || !VSC_NEW(made->stretch, slots) || !VSC_NEW(made->tension, slots) ||
@@ -45,73 +46,73 @@ typedef struct observation {
   vsc_ledger *ledger;
 } observation;
 
-static vsc_springs passive_springs(const vsc_material *material)
-{
-  vsc_springs law = {.rest_stretch = vsc_splat(1)};
-  for (int a = 0; a < 3; a++) {
-    law.axial[a] = vsc_splat(material->axial[a]);
-    law.angular[a] = vsc_splat(material->angular[a]);
-  }
-  return law;
-}
-
-// Active tension of one element: its range, and its work since the last call.
-static void add_active(const observation *o, const vsc_material *material, size_t slot, double V,
-                       double stretch, vsc_totals *part)
+// Active tension of one frame: its range, and its work since the last call. `place` is where the
+// ledger keeps the frame.
+static void add_active(const observation *o, const vsc_material *material, const vsc_pack_law *law,
+                       int lane, double activation, size_t place, double V, double stretch,
+                       vsc_totals *part)
 {
   vsc_ledger *ledger = o->ledger;
   double nominal;
-  const double tension =
-      vsc_active_tension(o->model, material, slot, o->state->time, stretch, &nominal);
+  const double tension = vsc_active_tension(material, law, lane, activation, stretch, &nominal);
   part->tension_high = fmax(part->tension_high, tension);
   part->tension_mean += V * tension;
   // a tension that shortens the fibre does work: - T d lambda
   part->active_work -=
-      V * 0.5 * (nominal + ledger->tension[slot]) * (stretch - ledger->stretch[slot]);
-  ledger->stretch[slot] = stretch;
-  ledger->tension[slot] = nominal;
+      V * 0.5 * (nominal + ledger->tension[place]) * (stretch - ledger->stretch[place]);
+  ledger->stretch[place] = stretch;
+  ledger->tension[place] = nominal;
+}
+
+// What the frames of one pack of cells show: volume ratios, stretches, active tension.
+static void observe_frames(const observation *o, const vsc_patch *patch, size_t k, vsc_totals *part)
+{
+  const vsc_model *model = o->model;
+  const vsc_material *material = &model->materials[patch->material];
+  const bool active = material->active != VSC_ACTIVE_NONE;
+  const int points = vsc_family_frames(model, patch->family);
+  vsc_pack_law law;
+  if (active) law = vsc_pack_law_of(model, patch, k);
+  bool inverted[VSC_WIDTH] = {false};
+  for (int q = 0; q < points; q++) {
+    vsc_wide3 g[3];
+    vsc_pack_axes(model, patch, k, q, o->state->x, g);
+    const vsc_wide V = vsc_pack_frames(model, patch, k)[q].V, J = vsc_pack_ratio(g);
+    const vsc_wide stretch = vsc_wide_sqrt(vsc_wide_dot(g[0], g[0]));
+    const size_t frame = patch->first_frame + (k - patch->first_pack) * (size_t)points + (size_t)q;
+    for (int l = 0; l < VSC_WIDTH; l++) {
+      const size_t slot = VSC_WIDTH * k + (size_t)l;
+      if (model->mesh_element[slot] == VSC_NO_ELEMENT) continue;
+      part->volume += V[l] * J[l];
+      part->J_low = fmin(part->J_low, J[l]);
+      part->J_high = fmax(part->J_high, J[l]);
+      inverted[l] |= J[l] <= 0;
+      if (model->known[slot]) {
+        part->stretch_low = fmin(part->stretch_low, stretch[l]);
+        part->stretch_high = fmax(part->stretch_high, stretch[l]);
+        part->stretch_mean += V[l] * stretch[l];
+        part->known_volume += V[l];
+      }
+      if (active)
+        add_active(o, material, &law, l,
+                   vsc_model_activation(model, material, slot, o->state->time),
+                   VSC_WIDTH * frame + (size_t)l, V[l], stretch[l], part);
+    }
+  }
+  for (int l = 0; l < VSC_WIDTH; l++) part->inverted += inverted[l];
 }
 
 static void observe_pack(const observation *o, const vsc_patch *patch, size_t k, vsc_totals *part)
 {
-  const vsc_model *model = o->model;
-  const vsc_material *material = &model->materials[patch->material];
-  const vsc_pack *pack = &model->packs[k];
-  const vsc_springs law = passive_springs(material);
-  vsc_wide3 g[3], rate[3];
-  vsc_pack_axes(model, patch, pack, o->state->x, g);
-  const vsc_frame_axes frame = vsc_frame_of(g);
-  const vsc_wide J = vsc_pack_ratio(g);
-  const vsc_wide axial = pack->V * vsc_springs_axial_energy(&law, &frame);
-  const vsc_wide angular = pack->V * vsc_springs_angular_energy(&law, &frame);
-  vsc_wide dissipation = vsc_splat(0);
-  if (model->terms.damping) {
-    vsc_pack_axes(model, patch, pack, o->state->v, rate);
-    for (int a = 0; a < 3; a++) {
-      const vsc_wide along = vsc_wide_dot(rate[a], frame.u[a]);
-      dissipation += material->damping[a] * along * along;
-    }
-    dissipation *= pack->V;
-  }
+  const vsc_pack_energies energies =
+      vsc_pack_energies_of(o->model, patch, k, o->state->x, o->state->v);
   for (int l = 0; l < VSC_WIDTH; l++) {
-    const size_t slot = VSC_WIDTH * k + l;
-    if (model->mesh_element[slot] == VSC_NO_ELEMENT) continue;
-    const double V = pack->V[l], stretch = frame.length[0][l];
-    part->axial += axial[l];
-    part->angular += angular[l];
-    part->dissipation += dissipation[l];
-    part->volume += V * J[l];
-    part->volume_energy += V * vsc_volume_energy(material->element_modulus, J[l]);
-    part->J_low = fmin(part->J_low, J[l]);
-    part->J_high = fmax(part->J_high, J[l]);
-    part->inverted += J[l] <= 0;
-    if (model->known[slot]) {
-      part->stretch_low = fmin(part->stretch_low, stretch);
-      part->stretch_high = fmax(part->stretch_high, stretch);
-      part->stretch_mean += V * stretch;
-    }
-    if (material->active != VSC_ACTIVE_NONE) add_active(o, material, slot, V, stretch, part);
+    part->axial += energies.axial[l];
+    part->angular += energies.angular[l];
+    part->volume_energy += energies.volume[l];
+    part->dissipation += energies.dissipation[l];
   }
+  if (vsc_patch_is_solid(patch)) observe_frames(o, patch, k, part);
 }
 
 static vsc_totals empty_totals(void)
@@ -175,6 +176,7 @@ static void observe_groups(const vsc_model *model, vsc_state *state, vsc_totals 
   totals->group_low = DBL_MAX;
   totals->group_high = -DBL_MAX;
   for (size_t n = 0; n < model->node_count; n++) {
+    if (model->group_modulus[n] == 0) continue;  // no tets there
     totals->volume_energy +=
         model->group_volume[n] * vsc_volume_energy(model->group_modulus[n], ratio[n]);
     totals->group_low = fmin(totals->group_low, ratio[n]);
@@ -221,8 +223,7 @@ void vsc_observe(const vsc_model *model, vsc_state *state, vsc_ledger *ledger, b
   vsc_parallel_for(model->patch_count, observe_patch, &o);
   double known_volume = 0, active_volume = 0;
   for (size_t p = 0; p < model->patch_count; p++) add_part(&ledger->parts[p], totals);
-  for (size_t slot = 0; slot < VSC_WIDTH * model->pack_count; slot++)
-    if (model->known[slot]) known_volume += model->packs[slot / VSC_WIDTH].V[slot % VSC_WIDTH];
+  for (size_t p = 0; p < model->patch_count; p++) known_volume += ledger->parts[p].known_volume;
   for (size_t m = 0; m < model->material_count; m++)
     if (model->materials[m].active != VSC_ACTIVE_NONE) active_volume += model->materials[m].volume;
   if (known_volume > 0)
@@ -231,6 +232,10 @@ void vsc_observe(const vsc_model *model, vsc_state *state, vsc_ledger *ledger, b
     totals->stretch_low = totals->stretch_high = totals->stretch_mean = 1;
   if (active_volume > 0) totals->tension_mean /= active_volume;
   observe_nodes(model, state, totals);
+  for (size_t o = 0; o < model->obstacle_count; o++) {
+    totals->contact_work += state->contact[o].work;
+    totals->contact_lost += state->contact[o].lost;
+  }
   if (model->terms.nodal_volume) observe_groups(model, state, totals);
   const double pushed = pressure_work(model, state, ledger->push);
   if (ledger->calls > 0 && !resume) {
@@ -248,5 +253,5 @@ void vsc_observe(const vsc_model *model, vsc_state *state, vsc_ledger *ledger, b
 double vsc_balance_error(const vsc_ledger *ledger, const vsc_totals *totals)
 {
   return stored_and_kinetic(totals) - ledger->start - ledger->active - ledger->pressure +
-         ledger->dissipated;
+         ledger->dissipated - totals->contact_work + totals->contact_lost;
 }

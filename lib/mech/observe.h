@@ -17,13 +17,16 @@ typedef struct vsc_totals {
   double momentum[3];            // sum m v, mg mm/ms
   double angular_momentum[3];    // sum m x x v, mg mm^2/ms
   double volume;                 // of the tissue, mm^3
-  double J_low, J_high;          // range of the tets' volume ratios
+  double J_low, J_high;          // range of the frames' volume ratios
   double group_low, group_high;  // range of the node groups' volume ratios; 1 without them
   double stretch_low, stretch_high,
       stretch_mean;  // fibre stretch |g_f| (mean by rest volume), known fibres only
   double tension_high,
       tension_mean;    // active tension, kPa (mean by rest volume, over active materials)
-  double inverted;     // number of tets with J <= 0
+  double known_volume; // rest volume of the elements with a known fibre, mm^3
+  double inverted;     // number of elements with J <= 0 in a frame
+  double contact_work;   // done by moving obstacles since the start, uJ
+  double contact_lost;   // in impacts and friction since the start, uJ
   double active_work;  // done by active tension since the last call on the same ledger, uJ
 } vsc_totals;
 
@@ -38,8 +41,8 @@ typedef struct vsc_ledger {
   double time;         // of the last call, ms
   double dissipation;  // power at the last call, uJ/ms
   double calls;
-  double *stretch;  // slots: fibre stretch at the last call; NULL when nothing is active. Owned
-  double *tension;  // slots: nominal active tension at the last call, kPa. Owned
+  double *stretch;  // frames x 4: fibre stretch at the last call; NULL when nothing is active. Owned
+  double *tension;  // frames x 4: nominal active tension at the last call, kPa. Owned
   double *
       push;  // per pressure triangle: force on each corner and sum of the corners, 6 numbers. Owned
   vsc_totals *parts;  // patch_count. Owned

@@ -25,7 +25,9 @@ static bool allocate(const vsc_model *model, vsc_state *state)
          VSC_NEW(scratch->volume, nodal ? n : 0) &&
          VSC_NEW(scratch->partial_volume, nodal ? model->partial_count : 0) &&
          VSC_NEW(scratch->predicted, model->terms.damping ? 4 * n : 0) &&
-         VSC_NEW(scratch->trial, 3 * 4 * n);
+         VSC_NEW(scratch->trial, 3 * 4 * n) && VSC_NEW(state->contact, model->obstacle_count + 1) &&
+         VSC_NEW(state->contact_count, model->obstacle_count > 0 ? n : 0) &&
+         VSC_NEW(state->contact_normal, model->obstacle_count > 0 ? 4 * n : 0);
 }
 
 vsc_status vsc_state_create(const vsc_model *model, vsc_state **state, vsc_error *error)
@@ -48,6 +50,9 @@ void vsc_state_free(vsc_state *state)
   vsc_free(state->v);
   vsc_free(state->a);
   vsc_free(state->force);
+  vsc_free(state->contact);
+  vsc_free(state->contact_count);
+  vsc_free(state->contact_normal);
   vsc_free(state->limit.mode);
   vsc_free(state->scratch.local);
   vsc_free(state->scratch.partial);

@@ -32,6 +32,15 @@ typedef struct vsc_scratch {
   double *trial;  // node_count x 4 x 3: positions, velocities and forces of the step estimate
 } vsc_scratch;
 
+// What an obstacle has done to the nodes since the start.
+typedef struct vsc_contact_sums {
+  double impulse[3];  // mN ms
+  double work;        // done by the obstacle's own motion, uJ
+  double lost;        // by impact and friction, uJ
+  double row_impulse[3];  // impulse at the last row of signals.csv, mN ms
+  double row_time;        // when that was, ms
+} vsc_contact_sums;
+
 typedef struct vsc_state {
   double time;    // ms
   double steps;   // done so far (an integer)
@@ -39,6 +48,10 @@ typedef struct vsc_state {
   double *v;      // node_count x 4: velocity, mm/ms; owned
   double *a;      // node_count x 4: acceleration at x, v, time, mm/ms^2; owned
   double *force;  // node_count x 4: total force behind a, mN; owned
+  vsc_contact_sums *contact;  // obstacle_count + 1 (the last is not used); owned
+  uint8_t *contact_count;     // node_count: obstacles that the node touched in the last step; only
+                              // with obstacles, owned
+  double *contact_normal;     // node_count x 4: the free part of the last one's normal; likewise
   vsc_limit limit;
   vsc_scratch scratch;
 } vsc_state;

@@ -54,7 +54,7 @@ static double largest(const vsc_model *model, const double *d)
 // A length far below an element and far above the rounding of positions.
 static double probe_length(const vsc_model *model)
 {
-  return 1e-6 * cbrt(model->total_volume / (double)model->element_count);
+  return 1e-6 * model->element_size;
 }
 
 // mode <- M^-1 (K + 4/dt C) mode by a difference of forces; returns the growth of its norm.
@@ -101,75 +101,116 @@ void vsc_limit_refresh(const vsc_model *model, vsc_state *state, double time, in
   limit->refreshes++;
 }
 
-// A bound of the springs' tangent at rest: E_a along an axis, 2 G_ab across; a fibre that pulls
-// with a tension T adds T across, T = E_f (1 - r) in an active spring.
-static double stiffest_springs(const vsc_material *material)
+// A bound of the tangent of four elements' springs at rest: E_a along an axis, 2 G_ab across; a fibre
+// that pulls with a tension T adds T across, T = E_f (1 - r) in an active spring. Further axes add
+// theirs.
+static vsc_wide stiffest_springs(const vsc_model *model, const vsc_patch *patch, size_t k)
 {
-  double along = 0, across = 0, tension = 0;
-  for (int a = 0; a < 3; a++) {
-    along = fmax(along, material->axial[a]);
-    across = fmax(across, 2 * material->angular[a]);
+  const vsc_material *material = &model->materials[patch->material];
+  const vsc_pack_law law = vsc_pack_law_of(model, patch, k);
+  vsc_wide most;
+  for (int l = 0; l < VSC_WIDTH; l++) {
+    double along = 0, across = 0, tension = 0;
+    for (int a = 0; a < 3; a++) {
+      along = fmax(along, law.springs.axial[a][l]);
+      across = fmax(across, 2 * law.springs.angular[a][l]);
+    }
+    if (material->active == VSC_ACTIVE_SPRING) {
+      along = fmax(along, law.active_axial[l]);
+      tension = along * (1 - material->rest_stretch);
+    }
+    most[l] = material->active == VSC_ACTIVE_TENSION ? fmax(along, across) + material->tension
+                                                     : fmax(along, across + tension);
   }
-  if (material->active == VSC_ACTIVE_SPRING) {
-    along = fmax(along, material->active_stiffness);
-    tension = along * (1 - material->rest_stretch);
-  }
-  if (material->active != VSC_ACTIVE_TENSION) return fmax(along, across + tension);
-  return fmax(along, across) + material->tension;
+  for (size_t d = 0; d < material->axis_count; d++)
+    most += model->axes[material->first_axis + d].modulus;
+  for (size_t d = 0; d < material->pair_count; d++)
+    most += 2 * model->pairs[material->first_pair + d].modulus;
+  return most;
 }
 
-// K of tet l: its own, and the mean of its nodes' groups': V_n J_n'^2 <= sum_e V_e/4 J_e'^2.
-static double volume_modulus(const vsc_model *model, const vsc_patch *patch, const vsc_pack *pack,
-                             int l)
+// K of four elements: their own, and for tets that share volume the mean of their nodes' groups':
+// V_n J_n'^2 <= sum_e V_e/4 J_e'^2.
+static vsc_wide volume_moduli(const vsc_model *model, const vsc_patch *patch, size_t k)
 {
-  double modulus = model->materials[patch->material].element_modulus;
-  for (int c = 0; model->terms.nodal_volume && c < 4; c++)
-    modulus += model->group_modulus[vsc_node_of(model, patch, pack->node[c][l])] / 4;
+  const vsc_pack_law law = vsc_pack_law_of(model, patch, k);
+  if (patch->family != VSC_TETS) return law.volume_modulus + law.stabilization;
+  vsc_wide modulus = law.element_modulus;
+  if (!vsc_patch_shares_volume(model, patch)) return modulus;
+  for (int c = 0; c < 4; c++)
+    for (int l = 0; l < VSC_WIDTH; l++)
+      modulus[l] +=
+          model->group_modulus[vsc_node_of(model, patch, vsc_pack_nodes(model, patch, k)[c][l])] / 4;
   return modulus;
 }
 
-// |B_i|^2 of corner c of tet l
-static double gradient_square(const vsc_pack *pack, int c, int l)
+// sum_q V |B_i|^2 of corner c, B_ai = sum_k T_ak D_ki
+static vsc_wide gradient_squares(const vsc_model *model, const vsc_patch *patch, size_t k, int c)
 {
-  double square = 0;
-  for (int a = 0; a < 3; a++) {
-    const double B =
-        c > 0 ? pack->B[a][c - 1][l] : -(pack->B[a][0][l] + pack->B[a][1][l] + pack->B[a][2][l]);
-    square += B * B;
+  vsc_wide sum = vsc_splat(0);
+  for (int q = 0; q < vsc_family_frames(model, patch->family); q++) {
+    const vsc_frame *frame = vsc_pack_frames(model, patch, k) + q;
+    const double(*D)[VSC_MOST_CORNERS] = model->rules[patch->family].D[q];
+    for (int a = 0; a < 3; a++) {
+      const vsc_wide B = frame->T[a][0] * D[0][c] + frame->T[a][1] * D[1][c] + frame->T[a][2] * D[2][c];
+      sum += frame->V * B * B;
+    }
   }
-  return square;
+  return sum;
 }
 
-static void add_node_stiffness(const vsc_model *model, double *stiffness)
+// What radial forces add to a corner of law PAPER, each bounded by all of them, mN/mm.
+static double radial_stiffness(const vsc_material *material, uint32_t family)
 {
-  for (size_t p = 0; p < model->patch_count; p++) {
-    const vsc_patch *patch = &model->patches[p];
-    const double springs = stiffest_springs(&model->materials[patch->material]);
-    for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++)
-      for (int l = 0; l < VSC_WIDTH; l++) {
-        const vsc_pack *pack = &model->packs[k];
-        const double modulus = springs + volume_modulus(model, patch, pack, l);
-        for (int c = 0; c < 4; c++)
-          stiffness[vsc_node_of(model, patch, pack->node[c][l])] +=
-              pack->V[l] * modulus * gradient_square(pack, c, l);
-      }
+  return material->law == VSC_LAW_PAPER ? material->paper.volume * (family == VSC_TETS ? 4 : 2) : 0;
+}
+
+static void add_cell_stiffness(const vsc_model *model, const vsc_patch *patch, double *stiffness)
+{
+  const double radial = radial_stiffness(&model->materials[patch->material], patch->family);
+  for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++) {
+    const vsc_wide modulus = stiffest_springs(model, patch, k) + volume_moduli(model, patch, k);
+    for (int c = 0; c < vsc_family_corners(patch->family); c++) {
+      const vsc_wide square = gradient_squares(model, patch, k, c);
+      for (int l = 0; l < VSC_WIDTH; l++)
+        if (model->mesh_element[VSC_WIDTH * k + l] != VSC_NO_ELEMENT)
+          stiffness[vsc_node_of(model, patch, vsc_pack_nodes(model, patch, k)[c][l])] +=
+              modulus[l] * square[l] + radial;
+    }
   }
+}
+
+// A classical spring bounds k on both of its nodes.
+static void add_spring_stiffness(const vsc_model *model, const vsc_patch *patch, double *stiffness)
+{
+  const vsc_edge_pack *packs = (const vsc_edge_pack *)(model->store + patch->packs);
+  for (size_t k = 0; k < patch->pack_count; k++)
+    for (int l = 0; l < VSC_WIDTH; l++)
+      for (int i = 0; i < 2 && packs[k].length[l] > 0; i++)
+        stiffness[vsc_node_of(model, patch, packs[k].node[i][l])] +=
+            model->materials[patch->material].classical.stiffness;
 }
 
 double vsc_limit_bound(const vsc_model *model, vsc_scratch *scratch, size_t *slot)
 {
   double *stiffness = scratch->trial, most = 0;
   memset(stiffness, 0, model->node_count * sizeof *stiffness);
-  add_node_stiffness(model, stiffness);
   for (size_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];
+    if (patch->family == VSC_SPRINGS_ON_EDGES) add_spring_stiffness(model, patch, stiffness);
+    if (vsc_patch_is_solid(patch) && model->materials[patch->material].law != VSC_LAW_CLASSICAL)
+      add_cell_stiffness(model, patch, stiffness);
+  }
+  for (size_t p = 0; p < model->patch_count; p++) {
+    const vsc_patch *patch = &model->patches[p];
+    if (!vsc_patch_is_solid(patch)) continue;
     const size_t first = VSC_WIDTH * (size_t)patch->first_pack;
     for (size_t k = first; k < first + VSC_WIDTH * (size_t)patch->pack_count; k++) {
       if (model->mesh_element[k] == VSC_NO_ELEMENT) continue;
       double sum = 0;
-      for (int c = 0; c < 4; c++) {
-        const uint32_t node =
-            vsc_node_of(model, patch, model->packs[k / VSC_WIDTH].node[c][k % VSC_WIDTH]);
+      for (int c = 0; c < vsc_family_corners(patch->family); c++) {
+        const uint16_t local = vsc_pack_nodes(model, patch, k / VSC_WIDTH)[c][k % VSC_WIDTH];
+        const uint32_t node = vsc_node_of(model, patch, local);
         sum += stiffness[node] / model->mass[node];
       }
       if (sum > most) *slot = k;

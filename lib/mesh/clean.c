@@ -8,20 +8,28 @@
 #include "base/mem.h"
 #include "base/vec3.h"
 #include "mesh/mesh.h"
+#include "mesh/topology.h"
 
 enum { NAMED = 5 };  // ids that a message names
 static const double DEGENERATE = 1e-12;  // volume over the cube of the longest edge
 
-// The first few of the things that are wrong, and how many there are.
+// The first few of the things that are wrong, and how many there are, of each kind of elements.
 typedef struct culprits {
   size_t count;
   size_t ids[NAMED];
+  size_t kinds[VSC_CELLS];
 } culprits;
 
 static void blame(culprits *list, size_t id)
 {
   if (list->count < NAMED) list->ids[list->count] = id;
   list->count++;
+}
+
+static void blame_element(culprits *list, const vsc_mesh *mesh, size_t element)
+{
+  blame(list, mesh->element_source[element]);
+  list->kinds[mesh->kinds[element]]++;
 }
 
 // "12, 14, 15 and 7 more"
@@ -36,38 +44,52 @@ static const char *spell(const culprits *list, char *text, size_t size)
   return text;
 }
 
+// Refuses the mesh for the culprits, if there are any: "mesh.vtu: 3 wedges `fault` (cells 1, 2, 7):
+// `remedy`".
+static vsc_status refuse(const culprits *list, const char *name, const char *fault,
+                         const char *remedy, vsc_error *error)
+{
+  char ids[160], kinds[160];
+  if (list->count == 0) return VSC_OK;
+  vsc_spell_kinds(list->kinds, kinds, sizeof kinds);
+  return vsc_fail(error, VSC_INPUT, "%s: %s %s (cells %s): %s", name, kinds, fault,
+                  spell(list, ids, sizeof ids), remedy);
+}
+
 static vsc_status check_numbers(const vsc_mesh *mesh, const char *name, vsc_error *error)
 {
-  culprits tets = {0}, triangles = {0};
-  char ids[160];
-  for (size_t t = 0; t < mesh->element_count; t++)
-    for (int i = 0; i < 4; i++)
-      if (mesh->corners[4 * t + i] >= mesh->node_count) {
-        blame(&tets, mesh->element_source[t]);
+  culprits elements = {0}, triangles = {0};
+  char text[160];
+  for (size_t e = 0; e < mesh->element_count; e++)
+    for (int i = 0; i < vsc_mesh_kind(mesh, e)->corners; i++)
+      if (vsc_mesh_corners(mesh, e)[i] >= mesh->node_count) {
+        blame_element(&elements, mesh, e);
         break;
       }
-  if (tets.count > 0)
-    return vsc_fail(error, VSC_INPUT,
-                    "%s: %zu tetrahedra name points that are not among the %zu of the mesh (cells "
-                    "%s): point numbers count from 0, write the mesh again",
-                    name, tets.count, mesh->node_count, spell(&tets, ids, sizeof ids));
+  snprintf(text, sizeof text, "name points that are not among the %zu of the mesh",
+           mesh->node_count);
+  const vsc_status status = refuse(&elements, name, text,
+                                   "point numbers count from 0, write the mesh again", error);
+  if (status != VSC_OK) return status;
   for (size_t t = 0; t < mesh->triangle_count; t++)
     for (int i = 0; i < 3; i++)
       if (mesh->triangles[3 * t + i] >= mesh->node_count) {
         blame(&triangles, t);
         break;
       }
-  if (triangles.count > 0)
-    return vsc_fail(error, VSC_INPUT,
-                    "%s: %zu triangles name points that are not among the %zu of the mesh "
-                    "(triangles %s, counted among the triangles): write the mesh again",
-                    name, triangles.count, mesh->node_count, spell(&triangles, ids, sizeof ids));
-  return VSC_OK;
+  if (triangles.count == 0) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT,
+                  "%s: %zu triangles name points that are not among the %zu of the mesh "
+                  "(triangles %s, counted among the triangles): write the mesh again",
+                  name, triangles.count, mesh->node_count, spell(&triangles, text, sizeof text));
 }
 
+// Nodes of elements or, on a surface, of triangles.
 static void mark_used(const vsc_mesh *mesh, uint8_t *used)
 {
-  for (size_t i = 0; i < 4 * mesh->element_count; i++) used[mesh->corners[i]] = 1;
+  for (size_t i = 0; i < mesh->start[mesh->element_count]; i++) used[mesh->corners[i]] = 1;
+  if (mesh->element_count > 0) return;
+  for (size_t i = 0; i < 3 * mesh->triangle_count; i++) used[mesh->triangles[i]] = 1;
 }
 
 static vsc_status check_nodes(const vsc_mesh *mesh, const uint8_t *used, const char *name,
@@ -87,63 +109,146 @@ static vsc_status check_nodes(const vsc_mesh *mesh, const uint8_t *used, const c
                   name, nodes.count, spell(&nodes, ids, sizeof ids));
 }
 
-static double longest_edge(const vsc_mesh *mesh, size_t tet)
+static double longest_edge(const vsc_mesh *mesh, size_t element)
 {
-  const uint32_t *corner = mesh->corners + 4 * tet;
+  const uint32_t *corner = vsc_mesh_corners(mesh, element);
+  const vsc_cell_kind *kind = vsc_mesh_kind(mesh, element);
   double longest = 0, edge[3];
-  for (int i = 0; i < 4; i++)
-    for (int j = i + 1; j < 4; j++) {
-      vsc_subtract(mesh->nodes + 3 * (size_t)corner[j], mesh->nodes + 3 * (size_t)corner[i], edge);
-      longest = fmax(longest, vsc_norm(edge));
-    }
+  for (int k = 0; k < kind->edge_count; k++) {
+    vsc_subtract(mesh->nodes + 3 * (size_t)corner[kind->edges[k][1]],
+                 mesh->nodes + 3 * (size_t)corner[kind->edges[k][0]], edge);
+    longest = fmax(longest, vsc_norm(edge));
+  }
   return longest;
 }
 
-static bool repeats_node(const uint32_t tet[4])
+static bool repeats_node(const uint32_t *corner, int corners)
 {
-  for (int i = 0; i < 4; i++)
-    for (int j = i + 1; j < 4; j++)
-      if (tet[i] == tet[j]) return true;
+  for (int i = 0; i < corners; i++)
+    for (int j = i + 1; j < corners; j++)
+      if (corner[i] == corner[j]) return true;
   return false;
 }
 
-static vsc_status check_tets(const vsc_mesh *mesh, const char *name, vsc_error *error)
+static vsc_status check_elements(const vsc_mesh *mesh, const char *name, vsc_error *error)
 {
   culprits repeated = {0}, flat = {0};
-  char ids[160];
-  for (size_t t = 0; t < mesh->element_count; t++) {
-    if (repeats_node(mesh->corners + 4 * t)) {
-      blame(&repeated, mesh->element_source[t]);
+  for (size_t e = 0; e < mesh->element_count; e++) {
+    if (repeats_node(vsc_mesh_corners(mesh, e), vsc_mesh_kind(mesh, e)->corners)) {
+      blame_element(&repeated, mesh, e);
       continue;
     }
-    const double edge = longest_edge(mesh, t);
-    const double relative = fabs(vsc_mesh_element_volume(mesh, t)) / edge / edge / edge;
-    if (!(relative >= DEGENERATE)) blame(&flat, mesh->element_source[t]);
+    const double edge = longest_edge(mesh, e);
+    const double relative = fabs(vsc_mesh_element_volume(mesh, e)) / edge / edge / edge;
+    if (!(relative >= DEGENERATE)) blame_element(&flat, mesh, e);
   }
-  if (repeated.count > 0)
-    return vsc_fail(error, VSC_INPUT,
-                    "%s: %zu tetrahedra name the same point twice (cells %s): remove them or mesh "
-                    "again",
-                    name, repeated.count, spell(&repeated, ids, sizeof ids));
-  if (flat.count > 0)
-    return vsc_fail(error, VSC_INPUT,
-                    "%s: %zu tetrahedra are degenerate, their volume is below 1e-12 of the longest "
-                    "edge cubed (cells %s): remove them or mesh again",
-                    name, flat.count, spell(&flat, ids, sizeof ids));
-  return VSC_OK;
+  const vsc_status status = refuse(&repeated, name, "name the same point twice",
+                                   "remove them or mesh again", error);
+  if (status != VSC_OK) return status;
+  return refuse(&flat, name,
+                "are degenerate, their volume is below 1e-12 of the longest edge cubed",
+                "remove them or mesh again", error);
 }
 
+// The corners in another order, so that the volume changes sign: a tet's last two and a pyramid's
+// second and fourth are exchanged, a hexahedron's bottom and top, a wedge's triangles.
 static void turn_left_handed(vsc_mesh *mesh)
 {
-  mesh->report.turned_tets = 0;
-  for (size_t t = 0; t < mesh->element_count; t++) {
-    if (vsc_mesh_element_volume(mesh, t) > 0) continue;
-    uint32_t *corner = mesh->corners + 4 * t;
-    const uint32_t third = corner[2];
-    corner[2] = corner[3];
-    corner[3] = third;
-    mesh->report.turned_tets++;
+  static const int turned[VSC_CELLS][VSC_MOST_CORNERS] = {[VSC_TET] = {0, 1, 3, 2},
+                                                          [VSC_HEX] = {4, 5, 6, 7, 0, 1, 2, 3},
+                                                          [VSC_WEDGE] = {3, 4, 5, 0, 1, 2},
+                                                          [VSC_PYRAMID] = {0, 3, 2, 1, 4}};
+  mesh->report.turned_elements = 0;
+  for (size_t e = 0; e < mesh->element_count; e++) {
+    if (vsc_mesh_element_volume(mesh, e) > 0) continue;
+    uint32_t before[VSC_MOST_CORNERS], *corner = mesh->corners + mesh->start[e];
+    const int corners = vsc_mesh_kind(mesh, e)->corners;
+    memcpy(before, corner, (size_t)corners * sizeof *corner);
+    for (int i = 0; i < corners; i++) corner[i] = before[turned[mesh->kinds[e]][i]];
+    mesh->report.turned_elements++;
   }
+}
+
+// det J of element `element` at point `q`, J_ka = sum_i d N_i / d xi_k x_ia
+static double jacobian(const vsc_mesh *mesh, size_t element, const vsc_cell_rule *rule, int q)
+{
+  const uint32_t *corner = vsc_mesh_corners(mesh, element);
+  double J[3][3] = {{0}}, normal[3];
+  for (int i = 0; i < vsc_mesh_kind(mesh, element)->corners; i++)
+    for (int k = 0; k < 3; k++)
+      for (int a = 0; a < 3; a++)
+        J[k][a] += rule->D[q][k][i] * mesh->nodes[3 * (size_t)corner[i] + (size_t)a];
+  vsc_cross(J[0], J[1], normal);
+  return vsc_dot(normal, J[2]);
+}
+
+static vsc_status check_jacobians(const vsc_mesh *mesh, const char *name, vsc_error *error)
+{
+  culprits folded = {0};
+  vsc_cell_rule rules[VSC_CELLS];
+  for (int kind = 0; kind < VSC_CELLS; kind++) rules[kind] = vsc_cell_rule_of((vsc_cell)kind);
+  for (size_t e = 0; e < mesh->element_count; e++) {
+    const vsc_cell_rule *rule = &rules[mesh->kinds[e]];
+    bool sound = true;
+    for (int q = 0; q < rule->points && mesh->kinds[e] != VSC_TET; q++)
+      sound = sound && jacobian(mesh, e, rule, q) > 0;
+    if (!sound) blame_element(&folded, mesh, e);
+  }
+  return refuse(&folded, name,
+                "are folded, their Jacobian is not positive at one of the integration points",
+                "check the order of their points, or mesh again", error);
+}
+
+// A force across a quadrilateral spreads over four nodes in another way than across two triangles
+// on the same nodes, so that even a constant stress would push there.
+static vsc_status check_conforming(const vsc_mesh *mesh, const char *name, vsc_error *error)
+{
+  vsc_topology topology;
+  culprits split = {0};
+  const vsc_status status = vsc_topology_make(mesh, &topology, error);
+  if (status != VSC_OK) return status;
+  for (size_t e = 0; e < mesh->element_count; e++)
+    for (int i = 0; i < VSC_MOST_FACES; i++)
+      if (topology.neighbours[e][i] == VSC_SPLIT) {
+        blame_element(&split, mesh, e);
+        break;
+      }
+  vsc_topology_free(&topology);
+  return refuse(&split, name,
+                "have a quadrilateral face where another element has triangles, which does not "
+                "conform",
+                "put pyramids between quadrilaterals and tetrahedra, or mesh again", error);
+}
+
+// Only a mesh that has faces of both kinds can have unlike ones meet.
+static bool has_unlike_faces(const vsc_mesh *mesh)
+{
+  bool has[VSC_CELLS] = {false};
+  for (size_t e = 0; e < mesh->element_count; e++) has[mesh->kinds[e]] = true;
+  return has[VSC_WEDGE] || has[VSC_PYRAMID] || (has[VSC_TET] && has[VSC_HEX]);
+}
+
+// A surface's triangles.
+static vsc_status check_triangles(const vsc_mesh *mesh, const char *name, vsc_error *error)
+{
+  culprits flat = {0};
+  char ids[160];
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    const double *at[3];
+    double edge[3][3], normal[3], longest = 0;
+    for (int i = 0; i < 3; i++) at[i] = mesh->nodes + 3 * (size_t)mesh->triangles[3 * t + i];
+    for (int i = 0; i < 3; i++) {
+      vsc_subtract(at[(i + 1) % 3], at[i], edge[i]);
+      longest = fmax(longest, vsc_norm(edge[i]));
+    }
+    vsc_cross(edge[0], edge[1], normal);
+    if (!(vsc_norm(normal) / longest / longest >= DEGENERATE)) blame(&flat, t);
+  }
+  if (flat.count == 0) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT,
+                  "%s: %zu triangles are degenerate, their area is below 1e-12 of the longest edge "
+                  "squared (triangles %s, counted among the triangles): remove them or mesh again",
+                  name, flat.count, spell(&flat, ids, sizeof ids));
 }
 
 // Keeps the tuples whose `keep` is set, in their order.
@@ -184,7 +289,8 @@ static void drop_unused_nodes(vsc_mesh *mesh, const uint8_t *used, uint32_t *pla
     memmove(mesh->nodes + 3 * kept, mesh->nodes + 3 * i, 3 * sizeof *mesh->nodes);
     mesh->node_source[kept++] = mesh->node_source[i];
   }
-  for (size_t i = 0; i < 4 * mesh->element_count; i++) mesh->corners[i] = place[mesh->corners[i]];
+  for (size_t i = 0; i < mesh->start[mesh->element_count]; i++)
+    mesh->corners[i] = place[mesh->corners[i]];
   for (size_t i = 0; i < 3 * mesh->triangle_count; i++)
     mesh->triangles[i] = place[mesh->triangles[i]];
   squeeze_arrays(&mesh->node_data, used, kept);
@@ -206,10 +312,24 @@ static vsc_status drop_unused(vsc_mesh *mesh, const uint8_t *used, vsc_error *er
   return memory ? VSC_OK : vsc_fail_memory(error, "the mesh's node numbers");
 }
 
+static vsc_status check_shapes(vsc_mesh *mesh, const char *name, vsc_error *error)
+{
+  if (mesh->element_count == 0) return check_triangles(mesh, name, error);
+  vsc_status status = check_elements(mesh, name, error);
+  if (status != VSC_OK) return status;
+  turn_left_handed(mesh);
+  status = check_jacobians(mesh, name, error);
+  if (status == VSC_OK && has_unlike_faces(mesh)) status = check_conforming(mesh, name, error);
+  return status;
+}
+
 vsc_status vsc_mesh_clean(vsc_mesh *mesh, const char *name, vsc_error *error)
 {
-  if (mesh->element_count == 0)
-    return vsc_fail(error, VSC_INPUT, "%s: holds no tetrahedra: mesh the organ's volume", name);
+  if (mesh->element_count + mesh->triangle_count == 0)
+    return vsc_fail(error, VSC_INPUT,
+                    "%s: holds neither elements (tetrahedra, hexahedra, wedges, pyramids) nor "
+                    "triangles: mesh the organ's volume or its surface",
+                    name);
   if (mesh->report.file_nodes == 0) mesh->report.file_nodes = mesh->node_count;
   if (mesh->report.file_cells == 0)
     mesh->report.file_cells = mesh->element_count + mesh->triangle_count;
@@ -220,11 +340,8 @@ vsc_status vsc_mesh_clean(vsc_mesh *mesh, const char *name, vsc_error *error)
   if (!VSC_NEW(used, mesh->node_count)) return vsc_fail_memory(error, "the mesh's node numbers");
   mark_used(mesh, used);
   status = check_nodes(mesh, used, name, error);
-  if (status == VSC_OK) status = check_tets(mesh, name, error);
-  if (status == VSC_OK) {
-    turn_left_handed(mesh);
-    status = drop_unused(mesh, used, error);
-  }
+  if (status == VSC_OK) status = check_shapes(mesh, name, error);
+  if (status == VSC_OK) status = drop_unused(mesh, used, error);
   vsc_free(used);
   return status;
 }

@@ -139,6 +139,25 @@ vsc_status vsc_mesh_from_arrays(size_t node_count, const double *nodes, size_t e
   return VSC_OK;
 }
 
+const char *vsc_spell_kinds(const size_t counts[VSC_CELLS], char *text, size_t size)
+{
+  size_t used = 0;
+  snprintf(text, size, "no elements");
+  for (int k = 0; k < VSC_CELLS; k++) {
+    if (counts[k] == 0 || used >= size) continue;
+    used += (size_t)snprintf(text + used, size - used, "%s%zu %s", used == 0 ? "" : ", ", counts[k],
+                             counts[k] == 1 ? vsc_cells[k].name : vsc_cells[k].plural);
+  }
+  return text;
+}
+
+const char *vsc_mesh_kinds_text(const vsc_mesh *mesh, char *text, size_t size)
+{
+  size_t counts[VSC_CELLS] = {0};
+  for (size_t e = 0; e < mesh->element_count; e++) counts[mesh->kinds[e]]++;
+  return vsc_spell_kinds(counts, text, size);
+}
+
 // (a x b) . c of three corners relative to the first node of the element
 static double flux(const double *at[VSC_MOST_CORNERS], int i, int j, int k)
 {

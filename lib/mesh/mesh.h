@@ -29,11 +29,11 @@ typedef struct vsc_arrays {
 typedef struct vsc_mesh_report {
   size_t file_nodes;       // points in the file
   size_t file_cells;       // cells in the file, of all kinds
-  size_t turned_tets;      // left-handed ones whose last two nodes were exchanged
-  size_t unused_nodes;     // points that no tet uses, dropped
-  size_t ignored_cells;    // cells that are neither tets nor triangles
+  size_t turned_elements;  // left-handed ones whose corners were put into another order
+  size_t unused_nodes;     // points that no element (on a surface: no triangle) uses, dropped
+  size_t ignored_cells;    // cells that are neither elements nor triangles
   char ignored_kinds[128]; // their kinds and counts, in words; empty when none
-  size_t loose_triangles;  // triangles dropped because one of their points is on no tet
+  size_t loose_triangles;  // triangles dropped because one of their points is on no element
 } vsc_mesh_report;
 
 // Nodes, elements and triangles are in the order of the file. A mesh may have no elements but
@@ -76,6 +76,13 @@ static inline const vsc_cell_kind *vsc_mesh_kind(const vsc_mesh *mesh, size_t el
   return &vsc_cells[mesh->kinds[element]];
 }
 
+// "12 tetrahedra, 1 wedge" for the counts of each kind, "no elements" when all are 0. Writes at most
+// `size` bytes with the terminating zero and returns `text`.
+const char *vsc_spell_kinds(const size_t counts[VSC_CELLS], char *text, size_t size);
+
+// The same for the elements of a mesh.
+const char *vsc_mesh_kinds_text(const vsc_mesh *mesh, char *text, size_t size);
+
 // Releases a mesh and its arrays; NULL is fine.
 void vsc_mesh_free(vsc_mesh *mesh);
 
@@ -93,12 +100,17 @@ const vsc_array *vsc_arrays_find(const vsc_arrays *arrays, const char *name);
 // Writes at most `size` bytes with the terminating zero.
 void vsc_arrays_hint(const vsc_arrays *arrays, const char *name, char *text, size_t size);
 
-// Makes a raw mesh fit for use: refuses (VSC_INPUT) a mesh without tets, node numbers out of range,
-// non-finite nodes of tets, repeated nodes and degenerate tets (|volume| < 1e-12 of the cube of the
-// longest edge), naming up to five ids in the file's numbering; turns left-handed tets; drops nodes
-// that no tet uses, with their data, and triangles that touch such a node, with theirs; fills the
-// report (file_nodes and file_cells only where they are 0). `name` (a file name) begins each
-// message. After a failure the mesh is good for vsc_mesh_free only.
+// Makes a raw mesh fit for use. Refuses (VSC_INPUT), naming kinds and up to five ids in the file's
+// numbering: a mesh without elements and triangles, node numbers out of range, non-finite nodes of
+// elements, repeated nodes, degenerate elements (|volume| < 1e-12 of the cube of the longest edge),
+// folded ones (a Jacobian that is not positive at a point of vsc_cell_rule_of), and quadrilateral
+// faces on which triangles of another element lie. Turns left-handed elements: a tet's last two
+// corners and a pyramid's corners 1 and 3 are exchanged, a hexahedron's bottom and top, a wedge's
+// triangles. Drops nodes that no element uses, with their data, and triangles that touch such a
+// node, with theirs. A mesh of triangles only is a surface: its triangles and their nodes stay,
+// degenerate ones (area < 1e-12 of the longest edge squared) are refused. Fills the report
+// (file_nodes and file_cells only where they are 0). `name` (a file name) begins each message.
+// After a failure the mesh is good for vsc_mesh_free only.
 vsc_status vsc_mesh_clean(vsc_mesh *mesh, const char *name, vsc_error *error);
 
 // A clean mesh from a caller's arrays: nodes (node_count x 3, mm), tets (element_count x 4). Both are

@@ -21,26 +21,51 @@ void vsc_surface_free(vsc_surface *surface)
   *surface = (vsc_surface){0};
 }
 
+// Appends a face: a quadrilateral is cut through its smallest node number.
+static void add_face(vsc_surface *surface, const int at[4], const uint32_t *corner)
+{
+  const int count = at[3] < 0 ? 3 : 4;
+  int low = 0;
+  for (int i = 1; i < count && count == 4; i++)
+    if (corner[at[i]] < corner[at[low]]) low = i;
+  for (int cut = 0; cut < count - 2; cut++) {
+    uint32_t *triangle = surface->triangles + 3 * surface->count++;
+    triangle[0] = corner[at[low]];
+    for (int k = 1; k < 3; k++) triangle[k] = corner[at[(low + cut + k) % count]];
+  }
+}
+
+// A surface's triangles as they are.
+static vsc_status copy_triangles(const vsc_mesh *mesh, vsc_surface *boundary, vsc_error *error)
+{
+  if (!VSC_NEW(boundary->triangles, 3 * mesh->triangle_count))
+    return vsc_fail_memory(error, "the mesh's boundary");
+  boundary->count = mesh->triangle_count;
+  memcpy(boundary->triangles, mesh->triangles,
+         3 * mesh->triangle_count * sizeof *boundary->triangles);
+  return VSC_OK;
+}
+
 vsc_status vsc_boundary(const vsc_mesh *mesh, vsc_surface *boundary, vsc_error *error)
 {
   *boundary = (vsc_surface){.name = "boundary"};
+  if (mesh->element_count == 0) return copy_triangles(mesh, boundary, error);
   vsc_topology topology;
   const vsc_status status = vsc_topology_make(mesh, &topology, error);
   if (status != VSC_OK) return status;
 
   size_t count = 0;
-  for (size_t t = 0; t < mesh->element_count; t++)
-    for (int i = 0; i < 4; i++) count += topology.neighbours[t][i] < 0;
+  for (size_t e = 0; e < mesh->element_count; e++)
+    for (int i = 0; i < vsc_mesh_kind(mesh, e)->face_count; i++)
+      if (topology.neighbours[e][i] < 0) count += vsc_mesh_kind(mesh, e)->faces[i][3] < 0 ? 1 : 2;
   if (!VSC_NEW(boundary->triangles, 3 * count)) {
     vsc_topology_free(&topology);
     return vsc_fail_memory(error, "the mesh's boundary");
   }
-  for (size_t t = 0; t < mesh->element_count; t++)
-    for (int i = 0; i < 4; i++) {
-      if (topology.neighbours[t][i] >= 0) continue;
-      uint32_t *triangle = boundary->triangles + 3 * boundary->count++;
-      for (int k = 0; k < 3; k++) triangle[k] = mesh->corners[4 * t + vsc_tet_faces[i][k]];
-    }
+  for (size_t e = 0; e < mesh->element_count; e++)
+    for (int i = 0; i < vsc_mesh_kind(mesh, e)->face_count; i++)
+      if (topology.neighbours[e][i] < 0)
+        add_face(boundary, vsc_mesh_kind(mesh, e)->faces[i], vsc_mesh_corners(mesh, e));
   vsc_topology_free(&topology);
   return VSC_OK;
 }
@@ -84,7 +109,7 @@ static vsc_status mark_triangle_array(const vsc_mesh *mesh, const vsc_selector *
 {
   if (mesh->triangle_count == 0)
     return vsc_fail(error, VSC_INPUT,
-                    "%s: the mesh file holds no triangles on its tetrahedra: select by a node "
+                    "%s: the mesh file holds no triangles on its elements: select by a node "
                     "array, a box or a plane",
                     selector->name);
   const vsc_array *array;

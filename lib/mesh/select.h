@@ -45,8 +45,10 @@ typedef struct vsc_surface {
   uint32_t *triangles;  // count x 3, turned so that the normal points out of the tissue; owned
 } vsc_surface;
 
-// The boundary of the mesh: faces that belong to one tet, turned outwards, in the order of their
-// tets. `boundary` is filled and owned by the caller.
+// The boundary of the mesh: faces that belong to one element, turned outwards, in the order of
+// their elements; of a mesh without elements its triangles as they are. A quadrilateral is cut into
+// two triangles by the diagonal through its smallest node number, whichever element it belongs to.
+// `boundary` is filled and owned by the caller.
 vsc_status vsc_boundary(const vsc_mesh *mesh, vsc_surface *boundary, vsc_error *error);
 
 // Finds the nodes that `selector` describes. `surfaces` (surface_count) are those that a selector

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Who touches whom in a mesh: the tets round each node, the tet across each face.
+// Who touches whom in a mesh: the elements round each node, the element across each face.
 #ifndef VSC_MESH_TOPOLOGY_H
 #define VSC_MESH_TOPOLOGY_H
 
@@ -9,22 +9,27 @@
 #include "base/status.h"
 #include "mesh/mesh.h"
 
+// What a face has across it, where it isn't an element.
+enum {
+  VSC_OUTSIDE = -1,  // nothing: it is on the boundary, or the kind has fewer faces
+  VSC_SPLIT = -2,    // a quadrilateral face on which triangles of other elements lie; vsc_mesh_clean
+                     // lets none through
+};
+
 typedef struct vsc_topology {
   size_t node_count;
   size_t element_count;
-  size_t *node_start;        // node_count + 1: the tets of node i are node_elements[node_start[i] ..]
-  uint32_t *node_elements;       // 4 element_count, ascending for each node
-  int32_t (*neighbours)[4];  // element_count: [i] is the tet across the face opposite corner i, -1 on
-                             // the boundary
-  size_t crowded_faces;      // faces that three or more tets claim (tets overlap): 0 in a sound
-                             // mesh; such a face counts as inside, and each of its tets names the
-                             // next of them as its neighbour
+  size_t *node_start;       // node_count + 1: the elements of node i are node_elements[node_start[i]
+                            // .. node_start[i + 1] - 1]
+  uint32_t *node_elements;  // as many as elements have corners, ascending for each node
+  int32_t (*neighbours)[VSC_MOST_FACES];  // element_count: [i] is the element across face i of
+                                          // vsc_mesh_kind(mesh, element), or VSC_OUTSIDE, VSC_SPLIT
+  size_t crowded_faces;  // faces that three or more elements claim (they overlap): 0 in a sound
+                         // mesh; such a face counts as inside, and each of its elements names the
+                         // next of them as its neighbour
 } vsc_topology;
 
-// The corners of the face opposite corner i of a right-handed tet, counter-clockwise from outside.
-extern const int vsc_tet_faces[4][3];
-
-// Fills `topology` for the tets of `mesh`; its content is owned by the caller. When memory is short
+// Fills `topology` for the elements of `mesh`; its content is owned by the caller. When memory is short
 // it fails with VSC_SYSTEM and leaves it empty.
 vsc_status vsc_topology_make(const vsc_mesh *mesh, vsc_topology *topology, vsc_error *error);
 

@@ -5,17 +5,20 @@
 
 #include "base/hash.h"
 #include "base/mem.h"
+#include "base/vec3.h"
+#include "model/mixture.h"
 #include "model/model.h"
 #include "model/patches.h"
 #include "model/terms.h"
 
-// The material whose list of regions holds `region`; else the one without a list; else -1.
+// The material whose list of regions holds `region`; else the one without a list (inclusions have
+// none either, but no elements of their own); else -1.
 static int material_of_region(const vsc_definition *definition, double region)
 {
   int rest = -1;
   for (size_t m = 0; m < definition->material_count; m++) {
     const vsc_material_def *material = &definition->materials[m];
-    if (material->region_count == 0) rest = (int)m;
+    if (material->region_count == 0 && vsc_takes_elements(definition, m)) rest = (int)m;
     for (size_t r = 0; r < material->region_count; r++)
       if (region == material->regions[r]) return (int)m;
   }
@@ -43,17 +46,48 @@ static vsc_status assign_materials(const vsc_mesh *mesh, const vsc_definition *d
   return VSC_OK;
 }
 
+// Appends the further axes and pairs of a material to the model's.
+static void copy_axes(const vsc_material_def *def, vsc_material *material, vsc_model *model)
+{
+  double direction[3 + VSC_MOST_AXES][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  material->first_axis = model->axis_count;
+  material->axis_count = def->axis_count;
+  for (size_t k = 0; k < def->axis_count; k++) {
+    vsc_axis *axis = &model->axes[model->axis_count++];
+    *axis = (vsc_axis){.modulus = def->axes[k].modulus, .damping = def->axes[k].damping};
+    memcpy(axis->direction, def->axes[k].direction, sizeof axis->direction);
+    vsc_normalize(axis->direction);
+    memcpy(direction[3 + k], axis->direction, sizeof axis->direction);
+  }
+  material->first_pair = model->pair_count;
+  material->pair_count = def->pair_count;
+  for (size_t k = 0; k < def->pair_count; k++) {
+    vsc_pair *pair = &model->pairs[model->pair_count++];
+    memcpy(pair->first, direction[def->pairs[k].axes[0]], sizeof pair->first);
+    memcpy(pair->second, direction[def->pairs[k].axes[1]], sizeof pair->second);
+    pair->cosine = vsc_dot(pair->first, pair->second);
+    pair->modulus = def->pairs[k].modulus;
+  }
+}
+
 static vsc_status copy_material(const vsc_material_def *def, const vsc_definition *definition,
-                                vsc_material *material, vsc_error *error)
+                                vsc_material *material, vsc_model *model, vsc_error *error)
 {
   vsc_copy_name(material->name, def->name);
   material->density = def->density;
-  memcpy(material->axial, def->axial, sizeof material->axial);
-  memcpy(material->angular, def->angular, sizeof material->angular);
-  memcpy(material->damping, def->damping, sizeof material->damping);
-  material->volume_modulus = def->volume_modulus;
-  material->element_modulus =
-      definition->volume == VSC_VOLUME_NODAL ? def->stabilization : def->volume_modulus;
+  material->law = def->law;
+  if (def->law == VSC_LAW_SPRINGS) {
+    memcpy(material->axial, def->axial, sizeof material->axial);
+    memcpy(material->angular, def->angular, sizeof material->angular);
+    memcpy(material->damping, def->damping, sizeof material->damping);
+    material->volume_modulus = def->volume_modulus;
+    const bool nodal = definition->volume == VSC_VOLUME_NODAL;
+    material->stabilization = nodal ? def->stabilization : 0;
+    material->element_modulus = nodal ? def->stabilization : def->volume_modulus;
+    copy_axes(def, material, model);
+  }
+  if (def->law == VSC_LAW_PAPER) material->paper = def->paper;
+  if (def->law == VSC_LAW_CLASSICAL) material->classical = def->classical;
   material->active = def->active.kind;
   material->active_stiffness = def->active.stiffness;
   material->rest_stretch = def->active.rest_stretch;
@@ -63,18 +97,39 @@ static vsc_status copy_material(const vsc_material_def *def, const vsc_definitio
   return vsc_curve_build(&def->active.curve, definition->end_time, &material->curve, error);
 }
 
+// Whether anything in the material resists velocity.
+static bool is_damped(const vsc_material_def *def)
+{
+  double most = 0;
+  for (int a = 0; a < 3; a++) {
+    if (def->law == VSC_LAW_SPRINGS) most = fmax(most, def->damping[a]);
+    if (def->law == VSC_LAW_PAPER) most = fmax(most, def->paper.damping[a]);
+  }
+  if (def->law == VSC_LAW_PAPER) most = fmax(most, def->paper.volume_damping);
+  if (def->law == VSC_LAW_CLASSICAL) most = fmax(most, def->classical.damping);
+  for (size_t k = 0; k < def->axis_count; k++) most = fmax(most, def->axes[k].damping);
+  return most > 0;
+}
+
 static vsc_status build_materials(const vsc_definition *definition, vsc_model *model,
                                   vsc_error *error)
 {
+  size_t axes = 0, pairs = 0;
+  for (size_t m = 0; m < definition->material_count; m++) {
+    axes += definition->materials[m].axis_count;
+    pairs += definition->materials[m].pair_count;
+  }
   model->material_count = definition->material_count;
-  if (!VSC_NEW(model->materials, model->material_count)) return vsc_fail_memory(error, "materials");
+  if (!VSC_NEW(model->materials, model->material_count) || !VSC_NEW(model->axes, axes) ||
+      !VSC_NEW(model->pairs, pairs))
+    return vsc_fail_memory(error, "materials");
   for (size_t m = 0; m < model->material_count; m++) {
-    const vsc_status status =
-        copy_material(&definition->materials[m], definition, &model->materials[m], error);
+    const vsc_status status = copy_material(&definition->materials[m], definition,
+                                            &model->materials[m], model, error);
     if (status != VSC_OK) return status;
     const vsc_material *material = &model->materials[m];
-    for (int a = 0; a < 3; a++)
-      if (material->damping[a] > 0) model->terms.damping = true;
+    model->terms.damping |= is_damped(&definition->materials[m]);
+    model->terms.paper |= material->law == VSC_LAW_PAPER;
     if (material->active == VSC_ACTIVE_NONE) continue;
     if (model->terms.active != VSC_ACTIVE_NONE && model->terms.active != material->active)
       return vsc_fail(
@@ -93,12 +148,15 @@ static void count_materials(vsc_model *model)
 {
   for (size_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];
+    if (!vsc_patch_is_solid(patch)) continue;
     vsc_material *material = &model->materials[patch->material];
+    const int frames = vsc_family_frames(model, patch->family);
     for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++)
       for (int l = 0; l < VSC_WIDTH; l++) {
         if (model->mesh_element[VSC_WIDTH * k + l] == VSC_NO_ELEMENT) continue;
         material->element_count++;
-        material->volume += model->packs[k].V[l];
+        for (int q = 0; q < frames; q++)
+          material->volume += vsc_pack_frames(model, patch, k)[q].V[l];
       }
   }
 }
@@ -106,7 +164,7 @@ static void count_materials(vsc_model *model)
 static void hash_model(vsc_model *model)
 {
   const size_t slots = VSC_WIDTH * model->pack_count;
-  uint64_t hash = vsc_hash(VSC_HASH_START, model->packs, model->pack_count * sizeof *model->packs);
+  uint64_t hash = vsc_hash(VSC_HASH_START, model->store, model->store_size);
   hash = vsc_hash(hash, model->patches, model->patch_count * sizeof *model->patches);
   hash = vsc_hash(hash, model->known, slots * sizeof *model->known);
   hash = vsc_hash(hash, &model->terms.nodal_volume, sizeof model->terms.nodal_volume);
@@ -127,6 +185,14 @@ static void hash_model(vsc_model *model)
     hash = vsc_hash(hash, &load->peak, sizeof load->peak);
     hash = vsc_hash(hash, &load->curve.hash, sizeof load->curve.hash);
   }
+  for (size_t o = 0; o < model->obstacle_count; o++) {
+    const vsc_obstacle *obstacle = &model->obstacles[o];
+    hash = vsc_hash(hash, &obstacle->kind, offsetof(vsc_obstacle, curve));
+    hash = vsc_hash(hash, &obstacle->curve.hash, sizeof obstacle->curve.hash);
+    hash = vsc_hash(hash, obstacle->nodes, obstacle->node_count * sizeof *obstacle->nodes);
+  }
+  hash = vsc_hash(hash, model->axes, model->axis_count * sizeof *model->axes);
+  hash = vsc_hash(hash, model->pairs, model->pair_count * sizeof *model->pairs);
   hash = vsc_hash(hash, model->gravity, sizeof model->gravity);
   hash = vsc_hash(hash, &model->step, sizeof model->step);
   model->hash = vsc_hash(hash, &model->safety, sizeof model->safety);
@@ -143,24 +209,49 @@ static vsc_status check_fibres(const vsc_model *model, vsc_error *error)
       "fibers.source (map, arrays, helix, constant, ...)");
 }
 
+// Node groups exist where tets of law SPRINGS do.
+static bool any_shares_volume(const vsc_model *model)
+{
+  for (size_t p = 0; p < model->patch_count; p++)
+    if (vsc_patch_shares_volume(model, &model->patches[p])) return true;
+  return false;
+}
+
+static vsc_status build_elements(const vsc_mesh *mesh, const vsc_axes *axes,
+                                 const vsc_definition *definition, const uint32_t *material_of,
+                                 uint8_t *mixed, vsc_model *model, vsc_error *error)
+{
+  vsc_parts parts = {0};
+  vsc_status status = vsc_mixture_find(mesh, definition, material_of, mixed, error);
+  if (status == VSC_OK) status = vsc_parts_list(mesh, material_of, mixed, model, &parts, error);
+  if (status == VSC_OK) status = vsc_patches_build(mesh, axes, &parts, model, error);
+  vsc_parts_free(&parts);
+  if (status == VSC_OK) model->terms.nodal_volume = any_shares_volume(model);
+  if (status == VSC_OK) status = vsc_mixture_fill(mesh, definition, model, error);
+  return status;
+}
+
 static vsc_status build(const vsc_mesh *mesh, const vsc_axes *axes,
-                        const vsc_definition *definition, uint32_t *material_of, vsc_model *model,
-                        vsc_error *error)
+                        const vsc_definition *definition, uint32_t *material_of, uint8_t *mixed,
+                        vsc_model *model, vsc_error *error)
 {
   model->end_time = definition->end_time;
   model->step = definition->step;
+  model->force_step = definition->force_step;
   model->safety = definition->safety;
   vsc_status status = assign_materials(mesh, definition, material_of, error);
   if (status == VSC_OK) status = build_materials(definition, model, error);
-  if (status == VSC_OK) status = vsc_patches_build(mesh, axes, material_of, model, error);
+  if (status == VSC_OK)
+    status = build_elements(mesh, axes, definition, material_of, mixed, model, error);
   if (status != VSC_OK) return status;
   count_materials(model);
   status = check_fibres(model, error);
   if (status == VSC_OK) status = vsc_terms_activation(mesh, definition, model, error);
-  if (status == VSC_OK) status = vsc_terms_masses(mesh, model, error);
+  if (status == VSC_OK) status = vsc_terms_masses(mesh, definition, material_of, model, error);
   if (status == VSC_OK) status = vsc_terms_volume_groups(model, error);
   if (status == VSC_OK) status = vsc_terms_selections(mesh, definition, model, error);
   if (status == VSC_OK) status = vsc_terms_supports(definition, model, error);
+  if (status == VSC_OK) status = vsc_terms_obstacles(mesh, definition, model, error);
   if (status == VSC_OK) status = vsc_terms_loads(definition, model, error);
   if (status == VSC_OK) hash_model(model);
   return status;
@@ -182,12 +273,14 @@ vsc_status vsc_model_build(const vsc_mesh *mesh, const vsc_axes *axes,
                     "vsc_axes_complete");
   vsc_model *built;
   uint32_t *material_of;
+  uint8_t *mixed = NULL;
   if (!VSC_NEW(built, 1)) return vsc_fail_memory(error, "the model");
-  if (VSC_NEW(material_of, mesh->element_count))
-    status = build(mesh, axes, definition, material_of, built, error);
+  if (VSC_NEW(material_of, mesh->element_count) && VSC_NEW(mixed, mesh->element_count))
+    status = build(mesh, axes, definition, material_of, mixed, built, error);
   else
     status = vsc_fail_memory(error, "the model");
   vsc_free(material_of);
+  vsc_free(mixed);
   if (status != VSC_OK) {
     vsc_model_free(built);
     return status;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model/definition.h"
 
+#include <string.h>
+
 #include "base/mem.h"
 
 vsc_curve_def vsc_default_curve(vsc_curve_kind kind)
@@ -40,6 +42,18 @@ vsc_definition vsc_default_definition(void)
   return (vsc_definition){.volume = VSC_VOLUME_NODAL, .safety = 0.8};
 }
 
+bool vsc_takes_elements(const vsc_definition *definition, size_t material)
+{
+  const vsc_material_def *asked = &definition->materials[material];
+  if (asked->region_count > 0) return true;
+  for (size_t v = 0; v < definition->vessel_count; v++)
+    if (strcmp(definition->vessels[v].material, asked->name) == 0) return false;
+  for (size_t m = 0; m < definition->material_count; m++)
+    for (size_t i = 0; i < definition->materials[m].inclusion_count; i++)
+      if (strcmp(definition->materials[m].inclusions[i].material, asked->name) == 0) return false;
+  return true;
+}
+
 static void free_curve(vsc_curve_def *curve)
 {
   vsc_free(curve->times);
@@ -66,6 +80,7 @@ void vsc_definition_free(vsc_definition *definition)
   vsc_free(definition->sets);
   vsc_free(definition->supports);
   vsc_free(definition->pressures);
+  vsc_free(definition->vessels);
   vsc_free(definition->membranes);
   vsc_free(definition->obstacles);
   *definition = vsc_default_definition();

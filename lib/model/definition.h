@@ -11,6 +11,7 @@
 #include "base/status.h"
 #include "base/text.h"
 #include "mesh/select.h"
+#include "model/fiber_def.h"
 
 // A function of time with values mostly in [0, 1]; loads and activation scale it by a peak value.
 typedef enum vsc_curve_kind {
@@ -82,6 +83,8 @@ typedef struct vsc_classical_def {
   double stiffness;  // k_s, mN/mm
   double damping;    // k_d, mN ms/mm
 } vsc_classical_def;
+
+enum { VSC_MOST_AXES = 64 };  // beside f, s, n
 
 // An axis beside f, s, n: psi += E (|g_d| - 1)^2 / 2 with g_d = d_f g_f + d_s g_s + d_n g_n.
 typedef struct vsc_axis_def {
@@ -161,6 +164,8 @@ typedef enum vsc_kept_volume {
   VSC_KEEP_ELEMENT,  // of each element
 } vsc_kept_volume;
 
+enum { VSC_MOST_OBSTACLES = 8 };
+
 typedef enum vsc_obstacle_kind { VSC_OBSTACLE_PLANE, VSC_OBSTACLE_SPHERE } vsc_obstacle_kind;
 
 // A rigid thing that no node may enter.
@@ -197,6 +202,8 @@ typedef struct vsc_definition {
   char region_array[VSC_NAME];  // tet array of region numbers; empty: one region, 0
   size_t material_count;
   vsc_material_def *materials;  // owned
+  size_t vessel_count;
+  vsc_vessel_def *vessels;  // owned
   vsc_volume_kind volume;
   size_t surface_count;
   vsc_selector *surfaces;  // owned
@@ -226,6 +233,10 @@ vsc_material_def vsc_default_material(void);
 vsc_membrane_def vsc_default_membrane(void);
 vsc_obstacle_def vsc_default_obstacle(void);
 vsc_definition vsc_default_definition(void);
+
+// Whether the material takes elements of its own: those of its regions or, without any, what no other
+// material names. One without regions that a vessel or an inclusion names takes none.
+bool vsc_takes_elements(const vsc_definition *definition, size_t material);
 
 // Refuses numbers that mean nothing (negative moduli, no volume modulus, rest stretch outside
 // (0, 1], ...) with the key as the scene writes it (materials[0].axial ...), the value and the

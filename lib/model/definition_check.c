@@ -113,6 +113,8 @@ static void check_active(checker *c, size_t item, const vsc_active_def *active, 
 static void check_more_axes(checker *c, const vsc_material_def *material)
 {
   char key[64];
+  need(c, material->axis_count <= VSC_MOST_AXES, "axes", (double)material->axis_count, "of them",
+       "64 are the most");
   for (size_t k = 0; k < material->axis_count; k++) {
     const vsc_axis_def *axis = &material->axes[k];
     const double *d = axis->direction, length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
@@ -189,9 +191,9 @@ static bool has_region(const vsc_material_def *material, int region)
 }
 
 // Each region belongs to one material, and one material at most takes the rest.
-static void check_regions(checker *c, const vsc_material_def *materials, size_t item)
+static void check_regions(checker *c, const vsc_definition *d, size_t item)
 {
-  const vsc_material_def *material = &materials[item];
+  const vsc_material_def *materials = d->materials, *material = &materials[item];
   char remedy[VSC_NAME + 80];
   enter(c, "materials", item, "");
   for (size_t other = 0; other < item; other++) {
@@ -202,8 +204,9 @@ static void check_regions(checker *c, const vsc_material_def *materials, size_t 
            "", remedy);
     snprintf(remedy, sizeof remedy, "material %s takes the unnamed regions already; list regions",
              materials[other].name);
-    need(c, material->region_count > 0 || materials[other].region_count > 0, "regions", 0,
-         "regions listed", remedy);
+    need(c, material->region_count > 0 || materials[other].region_count > 0 ||
+             !vsc_takes_elements(d, item) || !vsc_takes_elements(d, other),
+         "regions", 0, "regions listed", remedy);
   }
 }
 
@@ -324,13 +327,43 @@ static void check_obstacle(checker *c, const vsc_definition *d, size_t item)
   check_curve(c, &o->curve);
 }
 
+// Fails for `key` with a text.
+static void need_text(checker *c, bool fine, const char *key, const char *text, const char *remedy)
+{
+  if (c->status == VSC_OK && !fine)
+    c->status =
+        vsc_fail(c->error, VSC_INPUT, "%s.%s: \"%s\": %s", c->where, key, text, remedy);
+}
+
+static void check_vessel(checker *c, const vsc_definition *d, size_t item)
+{
+  const vsc_vessel_def *v = &d->vessels[item];
+  const vsc_material_def *own = NULL;
+  enter(c, "vessels", item, "");
+  for (size_t m = 0; m < d->material_count; m++)
+    if (strcmp(d->materials[m].name, v->material) == 0) own = &d->materials[m];
+  need_text(c, own != NULL, "material", v->material, "no material has this name; list it");
+  need_text(c, own == NULL || own->law == VSC_LAW_SPRINGS, "material", v->material,
+            "its moduli are mixed into the tissue's, so its law must be springs");
+  need_text(c, v->name[0] != '\0', "name", v->name, "give it a name");
+  for (size_t other = 0; other < item; other++)
+    need_text(c, strcmp(d->vessels[other].name, v->name) != 0, "name", v->name,
+              "another vessel has this name already; choose another");
+  need_positive(c, "unit", v->unit, "mm", "give a length above zero");
+  need_not_negative(c, "radius", v->radius, "mm");
+  need_text(c, v->radius == 0 || v->radius_array[0] == '\0', "radius_array", v->radius_array,
+            "radius is given too; leave one of the two out");
+  need(c, v->threshold >= 0 && v->threshold <= 1, "threshold", v->threshold, "",
+       "give a volume fraction from 0 to 1");
+}
+
 vsc_status vsc_definition_check(const vsc_definition *d, vsc_error *error)
 {
   checker c = {.error = error, .status = VSC_OK};
   need(&c, d->material_count > 0 || d->membrane_count > 0, "materials", 0, "given",
        "describe at least one material, or a membrane");
   for (size_t i = 0; i < d->material_count; i++) check_material(&c, i, &d->materials[i]);
-  for (size_t i = 0; i < d->material_count; i++) check_regions(&c, d->materials, i);
+  for (size_t i = 0; i < d->material_count; i++) check_regions(&c, d, i);
   check_selectors(&c, "surfaces", d->surfaces, d->surface_count);
   check_selectors(&c, "node_sets", d->sets, d->set_count);
   for (size_t i = 0; i < d->set_count; i++) {
@@ -339,9 +372,12 @@ vsc_status vsc_definition_check(const vsc_definition *d, vsc_error *error)
       need_known(&c, "surface", d->sets[i].array, d->surfaces, d->surface_count, true);
   }
   check_loads(&c, d);
+  for (size_t i = 0; i < d->vessel_count; i++) check_vessel(&c, d, i);
   for (size_t i = 0; i < d->membrane_count; i++) check_membrane(&c, d, i);
   for (size_t i = 0; i < d->obstacle_count; i++) check_obstacle(&c, d, i);
   c.where[0] = '\0';
+  need(&c, d->obstacle_count <= VSC_MOST_OBSTACLES, "obstacles", (double)d->obstacle_count, "of them",
+       "eight are the most");
   check_finite3(&c, "gravity", d->gravity, "mm/ms2");
   need_positive(&c, "time.end", d->end_time, "ms", "give a time above zero");
   need_not_negative(&c, "time.step", d->step, "ms");

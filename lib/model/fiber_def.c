@@ -5,6 +5,11 @@
 
 static const double degree = M_PI / 180;
 
+vsc_vessel_def vsc_default_vessel(void)
+{
+  return (vsc_vessel_def){.unit = 1, .threshold = 0.05};
+}
+
 vsc_fiber_def vsc_default_fiber(void)
 {
   vsc_fiber_def fiber = {

@@ -63,4 +63,18 @@ typedef struct vsc_fiber_def {
 
 vsc_fiber_def vsc_default_fiber(void);
 
+// A vessel that the mesh does not resolve: a closed surface, or centre lines when a radius is given.
+typedef struct vsc_vessel_def {
+  char name[VSC_NAME];          // its volume fraction becomes the element array <name>_fraction
+  char file[VSC_PATH];          // polydata
+  double unit;                  // mm per unit of the file's coordinates and radii; default 1
+  char material[VSC_NAME];      // what it is made of
+  double radius;                // centre lines: of all of them, mm; 0: none given
+  char radius_array[VSC_NAME];  // centre lines: point array of radii in the file's unit; empty: none
+  double threshold;             // elements with at least this volume fraction take the vessel's
+                                // direction as their fibre; default 0.05
+} vsc_vessel_def;
+
+vsc_vessel_def vsc_default_vessel(void);
+
 #endif

@@ -9,7 +9,7 @@ static void free_order_and_elements(vsc_model *model)
 {
   vsc_free(model->mesh_node);
   vsc_free(model->mesh_element);
-  vsc_free(model->packs);
+  vsc_free(model->store);
   vsc_free(model->patches);
   vsc_free(model->shared);
   vsc_free(model->sum_start);
@@ -34,11 +34,18 @@ static void free_lists(vsc_model *model)
   for (size_t m = 0; model->materials && m < model->material_count; m++)
     vsc_curve_free(&model->materials[m].curve);
   vsc_free(model->materials);
+  vsc_free(model->axes);
+  vsc_free(model->pairs);
   for (size_t p = 0; model->pressures && p < model->pressure_count; p++) {
     vsc_free(model->pressures[p].triangles);
     vsc_curve_free(&model->pressures[p].curve);
   }
   vsc_free(model->pressures);
+  for (size_t o = 0; model->obstacles && o < model->obstacle_count; o++) {
+    vsc_free(model->obstacles[o].nodes);
+    vsc_curve_free(&model->obstacles[o].curve);
+  }
+  vsc_free(model->obstacles);
   for (size_t s = 0; model->surfaces && s < model->surface_count; s++)
     vsc_surface_free(&model->surfaces[s]);
   vsc_free(model->surfaces);

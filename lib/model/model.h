@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Everything that can be computed once: immutable after vsc_model_build. Mesh nodes and tets are
+// Everything that can be computed once: immutable after vsc_model_build. Mesh nodes and elements are
 // renumbered for locality; "node" below is an internal number, "slot" an element's internal place.
 #ifndef VSC_MODEL_MODEL_H
 #define VSC_MODEL_MODEL_H
@@ -18,6 +18,59 @@
 
 #define VSC_NO_ELEMENT UINT32_MAX  // what an empty slot holds
 
+// What a patch is made of. The first are the kinds of cells (mesh/cell.h).
+typedef enum vsc_family {
+  VSC_TETS = VSC_TET,
+  VSC_HEXES = VSC_HEX,
+  VSC_WEDGES = VSC_WEDGE,
+  VSC_PYRAMIDS = VSC_PYRAMID,
+  VSC_SPRINGS_ON_EDGES = VSC_CELLS,  // classical springs
+  VSC_TRIANGLES,                     // of membranes
+  VSC_HINGES,                        // edges between two triangles of a membrane
+  VSC_FAMILIES,
+} vsc_family;
+
+// Four classical springs: force on the first node -[k (l - r) + k_d dl/dt] u, u from the second to
+// the first.
+typedef struct vsc_edge_pack {
+  vsc_wide length;  // r at rest, mm
+  uint16_t node[2][VSC_WIDTH];
+} vsc_edge_pack;
+
+// What law PAPER needs of four tets beside their frames.
+typedef struct vsc_chords {
+  vsc_wide r[3];    // lengths of the axes between the faces at rest, mm
+  vsc_wide radius;  // sum of the corners' distances from the barycentre at rest, mm
+} vsc_chords;
+
+// Four hexahedra under law PAPER: axis l_a = sum_i w_ai x_i between two faces.
+typedef struct vsc_hex_axes {
+  vsc_wide w[3][8];
+  vsc_wide r[3];       // |l_a| at rest, mm; the axes are at right angles then
+  vsc_wide radius[8];  // distances of the corners from the barycentre at rest, mm
+  vsc_wide volume;     // mm^3; for totals only
+} vsc_hex_axes;
+
+// Moduli of four elements that hold inclusions, in place of the material's.
+typedef struct vsc_mixture {
+  vsc_wide axial[3], angular[3], damping[3];
+  vsc_wide volume_modulus, stabilization, element_modulus;
+  vsc_wide share;  // of the element's own material: what its further axes and its activity are
+                   // multiplied by
+} vsc_mixture;
+
+// A further axis of a material; direction of unit length in f, s, n.
+typedef struct vsc_axis {
+  double direction[3], modulus, damping;
+} vsc_axis;
+
+// An angular spring between two axes, directions as above.
+typedef struct vsc_pair {
+  double first[3], second[3];
+  double cosine;  // at rest
+  double modulus;
+} vsc_pair;
+
 // A tissue's numbers, as the force loop needs them.
 typedef struct vsc_material {
   char name[VSC_NAME];
@@ -26,7 +79,10 @@ typedef struct vsc_material {
   double angular[3];       // G_fs, G_sn, G_nf, kPa
   double damping[3];       // eta_f, eta_s, eta_n, kPa ms
   double volume_modulus;   // K, kPa
-  double element_modulus;  // of each tet's own U(J), kPa: K, or Ks beside node-averaged volume
+  double stabilization;    // Ks, kPa: of each frame's own U(J) beside the shared volume of its nodes
+                           // or its element; 0 when elements are alone, so that tets and other
+                           // kinds have one bulk modulus
+  double element_modulus;  // of a tet's own U(J), kPa: K, or Ks beside node-averaged volume
   vsc_active_kind active;
   double active_stiffness;  // kPa
   double rest_stretch;
@@ -35,17 +91,29 @@ typedef struct vsc_material {
   vsc_curve curve;  // owned; only when active
   size_t element_count;
   double volume;  // mm^3
+  vsc_law law;
+  vsc_paper_def paper;
+  vsc_classical_def classical;
+  size_t first_axis, axis_count;  // in the model's axes
+  size_t first_pair, pair_count;  // in the model's pairs
 } vsc_material;
 
-// A block of elements, neighbours in space and of one material. Its nodes are numbered from 0:
-// first the nodes that no other patch has (consecutive nodes of the model), then the shared ones.
+// A block of elements, neighbours in space, of one family and one material. Its nodes are numbered
+// from 0: first the nodes that no other patch has (consecutive nodes of the model), then the shared
+// ones.
 typedef struct vsc_patch {
-  uint32_t material;
-  uint32_t first_pack, pack_count;
-  uint32_t first_node, own_count;  // own nodes: first_node ... first_node + own_count - 1
+  uint32_t family;    // a vsc_family
+  uint32_t material;  // of a membrane's triangles and hinges: the membrane
+  uint32_t first_pack, pack_count;  // packs are counted through all patches
+  uint32_t first_frame;             // so are frames, where the family has some
+  uint32_t first_node, own_count;   // own nodes: first_node ... first_node + own_count - 1
   // shared nodes: shared[first_shared ...]; the patch's part of their sums lies at the same places
   // of the partial arrays
   uint32_t first_shared, shared_count;
+  uint32_t mixed;    // 1: its elements hold inclusions
+  size_t packs;      // where its packs begin in the model's store, bytes
+  size_t law_data;   // law PAPER: vsc_chords or vsc_hex_axes of each pack; 0: none
+  size_t mixtures;   // mixed: vsc_mixture of each pack; 0: none
 } vsc_patch;
 
 // A surface under pressure.
@@ -57,9 +125,23 @@ typedef struct vsc_pressure {
   vsc_curve curve;      // owned
 } vsc_pressure;
 
+// A rigid thing that nodes may not enter; it moves by motion . curve(t).
+typedef struct vsc_obstacle {
+  vsc_obstacle_kind kind;
+  double point[3];   // of the plane, or the sphere's centre, at curve value 0, mm
+  double normal[3];  // PLANE: unit vector towards the free side
+  double radius;     // SPHERE, mm
+  double friction;
+  double motion[3];   // mm
+  vsc_curve curve;    // owned
+  size_t node_count;  // nodes that it stops
+  uint32_t *nodes;    // owned
+} vsc_obstacle;
+
 // Which force terms this scene has; what is absent is not in the loop.
 typedef struct vsc_terms {
   bool damping;
+  bool paper;  // some forces are no gradient of an energy
   vsc_active_kind active;  // NONE when no element is ever active; kinds may not be mixed
   bool nodal_volume;
   bool gravity;
@@ -71,11 +153,15 @@ typedef struct vsc_model {
 
   // order
   uint32_t *mesh_node;  // node_count: the mesh's node of each node
-  uint32_t *mesh_element;   // pack_count x 4: the mesh's tet of each slot, or VSC_NO_ELEMENT
+  uint32_t *mesh_element;  // pack_count x 4: the mesh's element of each slot, or VSC_NO_ELEMENT (also
+                           // for springs, triangles and hinges)
 
   // elements
-  vsc_pack *packs;        // pack_count
+  unsigned char *store;   // store_size bytes: packs and law data of all patches
+  size_t store_size;
+  size_t frame_count;     // packs x frames of their family
   vsc_patch *patches;     // patch_count
+  vsc_cell_rule rules[VSC_CELLS];  // D of each kind of cell
   uint32_t *shared;       // nodes of the patches' shared parts, partial_count in all
   size_t own_node_count;  // nodes [0, own_node_count) belong to one patch each
   uint32_t *sum_start;    // shared nodes + 1: where a shared node's list starts in sum_place
@@ -83,6 +169,7 @@ typedef struct vsc_model {
   size_t partial_count;
   size_t most_nodes;  // of any patch
   size_t most_packs;  // of any patch
+  double element_size;  // mean distance of neighbouring nodes, mm
   uint8_t *known;     // pack_count x 4: 1 where the fibre is known
   double *amplitude;  // pack_count x 4: factor of the activation; NULL: 1 everywhere
   double *delay;      // pack_count x 4: ms, added to the material's; NULL: 0 everywhere
@@ -94,14 +181,21 @@ typedef struct vsc_model {
   double *weight;        // node_count x 4: mass . gravity, mN; NULL without gravity
 
   // volume groups of the nodes, when terms.nodal_volume
-  double *group_volume;   // node_count: a quarter of the tets' rest volume round the node, mm^3
+  double *group_volume;   // node_count: a quarter of the tets' rest volume round the node, mm^3; 1
+                          // where there are none, with modulus 0
   double *group_modulus;  // node_count: their volume-weighted K, kPa
 
   vsc_terms terms;
   size_t material_count;
   vsc_material *materials;
+  size_t axis_count;
+  vsc_axis *axes;  // further axes of all materials
+  size_t pair_count;
+  vsc_pair *pairs;
   size_t pressure_count;
   vsc_pressure *pressures;
+  size_t obstacle_count;
+  vsc_obstacle *obstacles;
   double gravity[3];     // mm/ms^2
   size_t surface_count;  // the named surfaces, with the mesh's node numbers
   vsc_surface *surfaces;
@@ -110,6 +204,7 @@ typedef struct vsc_model {
   size_t held_count;   // nodes held in at least one direction
   double end_time;     // ms
   double step;         // ms asked for by the user, or 0
+  bool force_step;     // taken even above the stable step
   double safety;
   double total_mass;    // mg
   double total_volume;  // mm^3
@@ -125,6 +220,60 @@ vsc_status vsc_model_build(const vsc_mesh *mesh, const vsc_axes *axes,
                            const vsc_definition *definition, vsc_model **model, vsc_error *error);
 
 void vsc_model_free(vsc_model *model);  // NULL is fine
+
+// Frames and corners of a family; 0 frames: the family has none.
+static inline int vsc_family_frames(const vsc_model *model, uint32_t family)
+{
+  return family < VSC_CELLS ? model->rules[family].points : 0;
+}
+
+static inline int vsc_family_corners(uint32_t family)
+{
+  static const int others[] = {2, 3, 4};  // springs, triangles, hinges
+  return family < VSC_CELLS ? vsc_cells[family].corners : others[family - VSC_CELLS];
+}
+
+// Pack `k` (counted through all patches) of a patch of cells: its frames, and its nodes
+// [corner][lane] as numbers within the patch.
+static inline const vsc_frame *vsc_pack_frames(const vsc_model *model, const vsc_patch *patch,
+                                               size_t k)
+{
+  const size_t bytes =
+      vsc_pack_bytes(vsc_family_corners(patch->family), vsc_family_frames(model, patch->family));
+  return (const vsc_frame *)(model->store + patch->packs + (k - patch->first_pack) * bytes);
+}
+
+static inline const uint16_t (*vsc_pack_nodes(const vsc_model *model, const vsc_patch *patch,
+                                              size_t k))[VSC_WIDTH]
+{
+  return (const uint16_t(*)[VSC_WIDTH])(vsc_pack_frames(model, patch, k) +
+                                        vsc_family_frames(model, patch->family));
+}
+
+// Law data and mixture of a pack; only where the patch has them.
+static inline const void *vsc_pack_law_data(const vsc_model *model, const vsc_patch *patch, size_t k)
+{
+  const size_t bytes = patch->family == VSC_TETS ? sizeof(vsc_chords) : sizeof(vsc_hex_axes);
+  return model->store + patch->law_data + (k - patch->first_pack) * bytes;
+}
+
+static inline const vsc_mixture *vsc_pack_mixture(const vsc_model *model, const vsc_patch *patch,
+                                                  size_t k)
+{
+  return (const vsc_mixture *)(model->store + patch->mixtures) + (k - patch->first_pack);
+}
+
+static inline bool vsc_patch_is_solid(const vsc_patch *patch)
+{
+  return patch->family < VSC_CELLS;
+}
+
+// Whether its elements are tets that share their volume with all round a node.
+static inline bool vsc_patch_shares_volume(const vsc_model *model, const vsc_patch *patch)
+{
+  return model->terms.nodal_volume && patch->family == VSC_TETS &&
+         model->materials[patch->material].law == VSC_LAW_SPRINGS;
+}
 
 // The model's number of node `local` of a patch.
 static inline uint32_t vsc_node_of(const vsc_model *model, const vsc_patch *patch, uint32_t local)
@@ -142,6 +291,14 @@ int vsc_model_find_surface(const vsc_model *model, const char *name);
 
 // Pressure of load `p` at `time`, kPa.
 double vsc_model_pressure(const vsc_model *model, size_t p, double time);
+
+// Where an obstacle is at `time`: its point or centre, mm.
+void vsc_obstacle_place(const vsc_obstacle *obstacle, double time, double point[3]);
+
+// How far `x` is outside an obstacle whose point is at `point` (below 0: inside), mm, and the unit
+// vector that leads out of it.
+double vsc_obstacle_gap(const vsc_obstacle *obstacle, const double point[3], const double x[3],
+                        double normal[3]);
 
 // Activation of slot `slot` of `material` at `time`: amplitude . curve(time - delay).
 double vsc_model_activation(const vsc_model *model, const vsc_material *material, size_t slot,

@@ -1,77 +1,101 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model/patches.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/vec3.h"
 #include "mesh/order.h"
 
-// Elements of a patch: few enough that its nodes stay in the innermost caches, enough that few are
-// shared, and on small meshes enough patches for several threads. Depends on nothing but the mesh.
+// Parts of a patch: few enough that its nodes stay in the innermost caches, enough that few are
+// shared, and on small meshes enough patches for several threads. Depends on nothing but the scene.
 enum { LARGEST_PATCH = 2048, SMALLEST_PATCH = 128, WANTED_PATCHES = 16 };
 
 // What is known while the patches are cut.
 typedef struct cutter {
   const vsc_mesh *mesh;
-  const uint32_t *material_of;
-  uint32_t *order;       // tets in their new order
-  uint32_t *first_tet;   // patch_count + 1: patch p has order[first_tet[p] ...]
+  const vsc_parts *parts;
+  uint32_t *order;       // parts in their new order
+  size_t *place;         // parts + 1: the nodes of the k-th part in that order are nodes[place[k] ...]
+  uint32_t *nodes;       // of the mesh
+  uint32_t *first_part;  // patch_count + 1: patch p has order[first_part[p] ...]
   uint32_t *seen;        // mesh node -> the patch that touched it last
   uint32_t *patches_of;  // mesh node -> number of patches that touch it
   uint32_t *number;      // mesh node -> node
   uint32_t *local;       // mesh node -> number in the current patch
 } cutter;
 
-static size_t patch_size(size_t tets)
+static size_t patch_size(size_t parts)
 {
-  size_t size = tets / WANTED_PATCHES / VSC_WIDTH * VSC_WIDTH;
+  size_t size = parts / WANTED_PATCHES / VSC_WIDTH * VSC_WIDTH;
   if (size > LARGEST_PATCH) size = LARGEST_PATCH;
   return size < SMALLEST_PATCH ? SMALLEST_PATCH : size;
 }
 
-static vsc_status order_tets(cutter *cut, vsc_error *error)
+static void centre_of(const cutter *cut, size_t part, double centre[3])
 {
-  const size_t tets = cut->mesh->element_count;
-  double *centres;
-  if (!VSC_NEW(centres, 3 * tets)) return vsc_fail_memory(error, "element centres");
-  for (size_t t = 0; t < tets; t++) vsc_mesh_element_centre(cut->mesh, t, centres + 3 * t);
-  const vsc_status status = vsc_order_hilbert(tets, centres, cut->material_of, cut->order, error);
-  vsc_free(centres);
-  return status;
+  const vsc_parts *parts = cut->parts;
+  const size_t first = parts->start[part], count = parts->start[part + 1] - first;
+  for (int i = 0; i < 3; i++) {
+    centre[i] = 0;
+    for (size_t c = 0; c < count; c++)
+      centre[i] += cut->mesh->nodes[3 * (size_t)parts->nodes[first + c] + i];
+    centre[i] /= (double)count;
+  }
 }
 
-// Cuts the ordered tets at changes of material and after patch_size elements. With first_tet NULL
-// only counts the patches.
-static size_t cut_patches(const cutter *cut, uint32_t *first_tet)
+static vsc_status order_parts(cutter *cut, vsc_error *error)
 {
-  const size_t tets = cut->mesh->element_count, size = patch_size(tets);
+  const vsc_parts *parts = cut->parts;
+  double *centres;
+  if (!VSC_NEW(centres, 3 * parts->count)) return vsc_fail_memory(error, "element centres");
+  for (size_t k = 0; k < parts->count; k++) centre_of(cut, k, centres + 3 * k);
+  const vsc_status status =
+      vsc_order_hilbert(parts->count, centres, parts->group, cut->order, error);
+  vsc_free(centres);
+  if (status != VSC_OK) return status;
+  for (size_t k = 0; k < parts->count; k++) {
+    const size_t part = cut->order[k], first = parts->start[part];
+    const size_t count = parts->start[part + 1] - first;
+    memcpy(cut->nodes + cut->place[k], parts->nodes + first, count * sizeof *cut->nodes);
+    cut->place[k + 1] = cut->place[k] + count;
+  }
+  return VSC_OK;
+}
+
+// Cuts the ordered parts at changes of group and after patch_size parts. With first_part NULL only
+// counts the patches.
+static size_t cut_patches(const cutter *cut, uint32_t *first_part)
+{
+  const size_t parts = cut->parts->count, size = patch_size(parts);
+  const uint32_t *group = cut->parts->group;
   size_t patches = 0, start = 0;
-  for (size_t k = 1; k <= tets; k++) {
-    const bool ends = k == tets || k - start == size ||
-                      cut->material_of[cut->order[k]] != cut->material_of[cut->order[start]];
+  for (size_t k = 1; k <= parts; k++) {
+    const bool ends =
+        k == parts || k - start == size || group[cut->order[k]] != group[cut->order[start]];
     if (!ends) continue;
-    if (first_tet) first_tet[patches] = (uint32_t)start;
+    if (first_part) first_part[patches] = (uint32_t)start;
     patches++;
     start = k;
   }
-  if (first_tet) first_tet[patches] = (uint32_t)tets;
+  if (first_part) first_part[patches] = (uint32_t)parts;
   return patches;
 }
 
-// The node at place i of the list of all tets' corners in the new order; patch p has the places
-// 4 first_tet[p] ... 4 first_tet[p + 1] - 1.
-static uint32_t corner(const cutter *cut, size_t i)
+// The places of the nodes of patch p: first_place ... end_place - 1.
+static size_t first_place(const cutter *cut, size_t p)
 {
-  return cut->mesh->corners[4 * (size_t)cut->order[i / 4] + i % 4];
+  return cut->place[cut->first_part[p]];
 }
 
 static void count_patches_of_nodes(cutter *cut, size_t patches)
 {
   memset(cut->seen, 0xff, cut->mesh->node_count * sizeof *cut->seen);
   for (size_t p = 0; p < patches; p++)
-    for (size_t i = 4 * (size_t)cut->first_tet[p]; i < 4 * (size_t)cut->first_tet[p + 1]; i++) {
-      const uint32_t node = corner(cut, i);
+    for (size_t i = first_place(cut, p); i < first_place(cut, p + 1); i++) {
+      const uint32_t node = cut->nodes[i];
       if (cut->seen[node] != p) cut->patches_of[node]++;
       cut->seen[node] = (uint32_t)p;
     }
@@ -86,8 +110,8 @@ static void number_nodes(cutter *cut, vsc_model *model)
   for (int shared = 0; shared < 2; shared++) {
     for (size_t p = 0; p < model->patch_count; p++) {
       if (!shared) model->patches[p].first_node = next;
-      for (size_t i = 4 * (size_t)cut->first_tet[p]; i < 4 * (size_t)cut->first_tet[p + 1]; i++) {
-        const uint32_t node = corner(cut, i);
+      for (size_t i = first_place(cut, p); i < first_place(cut, p + 1); i++) {
+        const uint32_t node = cut->nodes[i];
         if (cut->number[node] != UINT32_MAX || (cut->patches_of[node] > 1) != shared) continue;
         model->mesh_node[next] = node;
         cut->number[node] = next++;
@@ -106,8 +130,8 @@ static void list_shared(cutter *cut, vsc_model *model)
   for (size_t p = 0; p < model->patch_count; p++) {
     vsc_patch *patch = &model->patches[p];
     patch->first_shared = (uint32_t)place;
-    for (size_t i = 4 * (size_t)cut->first_tet[p]; i < 4 * (size_t)cut->first_tet[p + 1]; i++) {
-      const uint32_t node = corner(cut, i);
+    for (size_t i = first_place(cut, p); i < first_place(cut, p + 1); i++) {
+      const uint32_t node = cut->nodes[i];
       if (cut->patches_of[node] == 1 || cut->seen[node] == p) continue;
       cut->seen[node] = (uint32_t)p;
       if (model->shared) model->shared[place] = cut->number[node];
@@ -139,28 +163,50 @@ static vsc_status list_sums(vsc_model *model, vsc_error *error)
   return VSC_OK;
 }
 
-static void fill_slot(const cutter *cut, const vsc_axes *axes, uint32_t tet, size_t slot,
-                      vsc_model *model)
+// Bytes of one pack of a family.
+static size_t pack_bytes(const vsc_model *model, uint32_t family)
 {
-  static const double global_axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  vsc_pack *pack = &model->packs[slot / VSC_WIDTH];
-  const int lane = (int)(slot % VSC_WIDTH);
-  double x[4][3], B[3][4];
-  for (int c = 0; c < 4; c++) {
-    const uint32_t node = cut->mesh->corners[4 * tet + c];
-    memcpy(x[c], cut->mesh->nodes + 3 * node, sizeof x[c]);
-    pack->node[c][lane] = (uint16_t)cut->local[node];
+  switch (family) {
+    case VSC_SPRINGS_ON_EDGES:
+      return sizeof(vsc_edge_pack);
+    default:
+      return vsc_pack_bytes(vsc_family_corners(family), vsc_family_frames(model, family));
   }
-  const double volume = vsc_stencil_tet(x, axes ? axes->frames + 9 * tet : global_axes, B);
-  for (int a = 0; a < 3; a++)
-    for (int c = 1; c < 4; c++) pack->B[a][c - 1][lane] = B[a][c];
-  pack->V[lane] = volume;
-  model->mesh_element[slot] = tet;
-  model->known[slot] = axes ? axes->known[tet] : 0;
-  model->total_volume += volume;
 }
 
-static void fill_patches(cutter *cut, const vsc_axes *axes, vsc_model *model)
+static size_t take(vsc_model *model, size_t bytes)
+{
+  const size_t place = model->store_size;
+  model->store_size += (bytes + VSC_ALIGNMENT - 1) / VSC_ALIGNMENT * VSC_ALIGNMENT;
+  return place;
+}
+
+static void start_patches(const cutter *cut, vsc_model *model)
+{
+  for (size_t p = 0; p < model->patch_count; p++) {
+    const uint32_t count = cut->first_part[p + 1] - cut->first_part[p];
+    const uint32_t group = cut->parts->group[cut->order[cut->first_part[p]]];
+    vsc_patch *patch = &model->patches[p];
+    patch->family = vsc_parts_family(cut->parts, group);
+    patch->material = vsc_parts_material(cut->parts, group);
+    patch->mixed = vsc_parts_mixed(cut->parts, group);
+    patch->first_pack = (uint32_t)model->pack_count;
+    patch->first_frame = (uint32_t)model->frame_count;
+    patch->pack_count = (count + VSC_WIDTH - 1) / VSC_WIDTH;
+    patch->packs = take(model, patch->pack_count * pack_bytes(model, patch->family));
+    const bool paper =
+        vsc_patch_is_solid(patch) && model->materials[patch->material].law == VSC_LAW_PAPER;
+    const size_t bytes = patch->family == VSC_TETS ? sizeof(vsc_chords) : sizeof(vsc_hex_axes);
+    if (paper) patch->law_data = take(model, patch->pack_count * bytes);
+    if (patch->mixed) patch->mixtures = take(model, patch->pack_count * sizeof(vsc_mixture));
+    model->pack_count += patch->pack_count;
+    model->frame_count += (size_t)vsc_family_frames(model, patch->family) * patch->pack_count;
+    if (patch->pack_count > model->most_packs) model->most_packs = patch->pack_count;
+  }
+}
+
+static vsc_status fill_patches(cutter *cut, const vsc_axes *axes, vsc_model *model,
+                               vsc_error *error)
 {
   memset(model->mesh_element, 0xff, VSC_WIDTH * model->pack_count * sizeof *model->mesh_element);
   for (size_t p = 0; p < model->patch_count; p++) {
@@ -169,66 +215,74 @@ static void fill_patches(cutter *cut, const vsc_axes *axes, vsc_model *model)
       cut->local[model->mesh_node[patch->first_node + n]] = n;
     for (uint32_t n = 0; n < patch->shared_count; n++)
       cut->local[model->mesh_node[model->shared[patch->first_shared + n]]] = patch->own_count + n;
-    for (size_t k = cut->first_tet[p]; k < cut->first_tet[p + 1]; k++) {
-      const size_t slot = VSC_WIDTH * (size_t)patch->first_pack + (k - cut->first_tet[p]);
-      fill_slot(cut, axes, cut->order[k], slot, model);
-    }
+    const uint32_t *order = cut->order + cut->first_part[p];
+    const vsc_status status =
+        vsc_patch_fill(cut->mesh, axes, cut->parts, order, cut->first_part[p + 1] - cut->first_part[p],
+                       cut->local, patch, model, error);
+    if (status != VSC_OK) return status;
   }
+  return VSC_OK;
 }
 
-static void start_patches(const cutter *cut, vsc_model *model)
+// The mean distance between the first two nodes of the parts.
+static double element_size(const cutter *cut)
 {
-  for (size_t p = 0; p < model->patch_count; p++) {
-    const uint32_t tets = cut->first_tet[p + 1] - cut->first_tet[p];
-    vsc_patch *patch = &model->patches[p];
-    patch->material = cut->material_of[cut->order[cut->first_tet[p]]];
-    patch->first_pack = (uint32_t)model->pack_count;
-    patch->pack_count = (tets + VSC_WIDTH - 1) / VSC_WIDTH;
-    model->pack_count += patch->pack_count;
-    if (patch->pack_count > model->most_packs) model->most_packs = patch->pack_count;
+  double sum = 0;
+  for (size_t k = 0; k < cut->parts->count; k++) {
+    double way[3];
+    const uint32_t *node = cut->nodes + cut->place[k];
+    vsc_subtract(cut->mesh->nodes + 3 * (size_t)node[1], cut->mesh->nodes + 3 * (size_t)node[0], way);
+    sum += vsc_norm(way);
   }
+  return sum / (double)cut->parts->count;
 }
 
 static vsc_status cut_and_fill(cutter *cut, const vsc_axes *axes, vsc_model *model,
                                vsc_error *error)
 {
   const size_t nodes = cut->mesh->node_count;
-  vsc_status status = order_tets(cut, error);
+  vsc_status status = order_parts(cut, error);
   if (status != VSC_OK) return status;
   model->patch_count = cut_patches(cut, NULL);
-  if (!VSC_NEW(cut->first_tet, model->patch_count + 1) ||
+  if (!VSC_NEW(cut->first_part, model->patch_count + 1) ||
       !VSC_NEW(model->patches, model->patch_count) || !VSC_NEW(model->mesh_node, nodes))
     return vsc_fail_memory(error, "patches");
-  cut_patches(cut, cut->first_tet);
+  cut_patches(cut, cut->first_part);
   start_patches(cut, model);
   count_patches_of_nodes(cut, model->patch_count);
   number_nodes(cut, model);
   list_shared(cut, model);
   const size_t slots = VSC_WIDTH * model->pack_count;
-  if (!VSC_NEW(model->shared, model->partial_count) || !VSC_NEW(model->packs, model->pack_count) ||
+  if (!VSC_NEW(model->shared, model->partial_count) || !VSC_NEW(model->store, model->store_size) ||
       !VSC_NEW(model->mesh_element, slots) || !VSC_NEW(model->known, slots))
     return vsc_fail_memory(error, "elements");
   list_shared(cut, model);
+  model->element_size = element_size(cut);
   status = list_sums(model, error);
-  if (status == VSC_OK) fill_patches(cut, axes, model);
+  if (status == VSC_OK) status = fill_patches(cut, axes, model, error);
   return status;
 }
 
-vsc_status vsc_patches_build(const vsc_mesh *mesh, const vsc_axes *axes,
-                             const uint32_t *material_of, vsc_model *model, vsc_error *error)
+vsc_status vsc_patches_build(const vsc_mesh *mesh, const vsc_axes *axes, const vsc_parts *parts,
+                             vsc_model *model, vsc_error *error)
 {
-  cutter cut = {.mesh = mesh, .material_of = material_of};
+  cutter cut = {.mesh = mesh, .parts = parts};
   model->node_count = mesh->node_count;
   model->element_count = mesh->element_count;
-  vsc_status status = vsc_fail_memory(NULL, "");
-  if (VSC_NEW(cut.order, mesh->element_count) && VSC_NEW(cut.seen, mesh->node_count) &&
+  for (int kind = 0; kind < VSC_CELLS; kind++)
+    model->rules[kind] = vsc_cell_rule_of((vsc_cell)kind);
+  vsc_status status = VSC_OK;
+  if (VSC_NEW(cut.order, parts->count) && VSC_NEW(cut.place, parts->count + 1) &&
+      VSC_NEW(cut.nodes, parts->start[parts->count]) && VSC_NEW(cut.seen, mesh->node_count) &&
       VSC_NEW(cut.patches_of, mesh->node_count) && VSC_NEW(cut.number, mesh->node_count) &&
       VSC_NEW(cut.local, mesh->node_count))
     status = cut_and_fill(&cut, axes, model, error);
   else
-    vsc_fail_memory(error, "the order of the elements");
+    status = vsc_fail_memory(error, "the order of the elements");
   vsc_free(cut.order);
-  vsc_free(cut.first_tet);
+  vsc_free(cut.place);
+  vsc_free(cut.nodes);
+  vsc_free(cut.first_part);
   vsc_free(cut.seen);
   vsc_free(cut.patches_of);
   vsc_free(cut.number);

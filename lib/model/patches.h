@@ -6,11 +6,18 @@
 #include "mesh/axes.h"
 #include "mesh/mesh.h"
 #include "model/model.h"
+#include "model/parts.h"
 
-// Orders elements by material (material_of[tet]) and along a space-filling curve, cuts them into
-// patches, numbers the nodes, and fills the "order" and "elements" fields of the model but for
-// amplitude and delay. `axes` may be NULL.
-vsc_status vsc_patches_build(const vsc_mesh *mesh, const vsc_axes *axes,
-                             const uint32_t *material_of, vsc_model *model, vsc_error *error);
+// Orders the parts by group and along a space-filling curve, cuts them into patches, numbers the
+// nodes, and fills the "order" and "elements" fields of the model but for amplitude, delay and
+// mixtures. `axes` may be NULL. VSC_INPUT for a hexahedron in which law PAPER finds no axis.
+vsc_status vsc_patches_build(const vsc_mesh *mesh, const vsc_axes *axes, const vsc_parts *parts,
+                             vsc_model *model, vsc_error *error);
+
+// Fills the packs of a patch (in the model's store) from its parts order[0 .. count - 1]; `local`
+// maps nodes of the mesh to numbers within the patch. Errors as above.
+vsc_status vsc_patch_fill(const vsc_mesh *mesh, const vsc_axes *axes, const vsc_parts *parts,
+                          const uint32_t *order, size_t count, const uint32_t *local,
+                          const vsc_patch *patch, vsc_model *model, vsc_error *error);
 
 #endif

@@ -38,7 +38,7 @@ static vsc_status fill_activation(const vsc_mesh *mesh, const vsc_definition *de
   if (status != VSC_OK) return status;
   for (size_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];
-    if (patch->material != m) continue;
+    if (patch->material != m || !vsc_patch_is_solid(patch)) continue;
     const size_t first = VSC_WIDTH * (size_t)patch->first_pack;
     for (size_t slot = first; slot < first + VSC_WIDTH * (size_t)patch->pack_count; slot++) {
       const uint32_t tet = model->mesh_element[slot];
@@ -80,30 +80,6 @@ vsc_status vsc_terms_activation(const vsc_mesh *mesh, const vsc_definition *defi
   return VSC_OK;
 }
 
-vsc_status vsc_terms_masses(const vsc_mesh *mesh, vsc_model *model, vsc_error *error)
-{
-  const size_t nodes = model->node_count;
-  if (!VSC_NEW(model->rest, 4 * nodes) || !VSC_NEW(model->mass, nodes) ||
-      !VSC_NEW(model->inverse_mass, 4 * nodes))
-    return vsc_fail_memory(error, "the nodes");
-  for (size_t n = 0; n < nodes; n++)
-    memcpy(model->rest + 4 * n, mesh->nodes + 3 * (size_t)model->mesh_node[n], 3 * sizeof(double));
-  for (size_t p = 0; p < model->patch_count; p++) {
-    const vsc_patch *patch = &model->patches[p];
-    const double density = model->materials[patch->material].density;
-    for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++)
-      for (int c = 0; c < 4; c++)
-        for (int l = 0; l < VSC_WIDTH; l++)
-          model->mass[vsc_node_of(model, patch, model->packs[k].node[c][l])] +=
-              density * model->packs[k].V[l] / 4;
-  }
-  for (size_t n = 0; n < nodes; n++) {
-    model->total_mass += model->mass[n];
-    for (int i = 0; i < 3; i++) model->inverse_mass[4 * n + i] = 1 / model->mass[n];
-  }
-  return VSC_OK;
-}
-
 vsc_status vsc_terms_volume_groups(vsc_model *model, vsc_error *error)
 {
   if (!model->terms.nodal_volume) return VSC_OK;
@@ -112,15 +88,23 @@ vsc_status vsc_terms_volume_groups(vsc_model *model, vsc_error *error)
     return vsc_fail_memory(error, "volume groups");
   for (size_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];
-    const double modulus = model->materials[patch->material].volume_modulus;
+    if (!vsc_patch_shares_volume(model, patch)) continue;
     for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++)
       for (int c = 0; c < 4; c++)
         for (int l = 0; l < VSC_WIDTH; l++) {
-          const uint32_t node = vsc_node_of(model, patch, model->packs[k].node[c][l]);
-          model->group_volume[node] += model->packs[k].V[l] / 4;
-          model->group_modulus[node] += modulus * model->packs[k].V[l] / 4;
+          const uint32_t node = vsc_node_of(model, patch, vsc_pack_nodes(model, patch, k)[c][l]);
+          const double share = vsc_pack_frames(model, patch, k)->V[l] / 4;
+          const double modulus = patch->mixed
+                                     ? vsc_pack_mixture(model, patch, k)->volume_modulus[l]
+                                     : model->materials[patch->material].volume_modulus;
+          model->group_volume[node] += share;
+          model->group_modulus[node] += modulus * share;
         }
   }
-  for (size_t n = 0; n < model->node_count; n++) model->group_modulus[n] /= model->group_volume[n];
+  for (size_t n = 0; n < model->node_count; n++)
+    if (model->group_volume[n] > 0)
+      model->group_modulus[n] /= model->group_volume[n];
+    else
+      model->group_volume[n] = 1;
   return VSC_OK;
 }

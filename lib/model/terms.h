@@ -17,10 +17,11 @@ vsc_status vsc_terms_element_values(const vsc_mesh *mesh, const char *name, cons
 vsc_status vsc_terms_activation(const vsc_mesh *mesh, const vsc_definition *definition,
                                 vsc_model *model, vsc_error *error);
 
-// Rest positions, lumped masses m_i = sum_e rho V_e / 4 and their inverses.
-vsc_status vsc_terms_masses(const vsc_mesh *mesh, vsc_model *model, vsc_error *error);
+// Rest positions, masses of the kind that the definition asks for, and their inverses (masses.c).
+vsc_status vsc_terms_masses(const vsc_mesh *mesh, const vsc_definition *definition,
+                            const uint32_t *material_of, vsc_model *model, vsc_error *error);
 
-// V_n = sum_e V_e / 4 and K_n = sum_e K_e V_e / 4 / V_n over the tets e round node n.
+// V_n = sum_e V_e / 4 and K_n = sum_e K_e V_e / 4 / V_n over the tets e of law SPRINGS round node n.
 vsc_status vsc_terms_volume_groups(vsc_model *model, vsc_error *error);
 
 // The named surfaces and node sets.
@@ -29,6 +30,10 @@ vsc_status vsc_terms_selections(const vsc_mesh *mesh, const vsc_definition *defi
 
 // Held directions: inverse mass 0.
 vsc_status vsc_terms_supports(const vsc_definition *definition, vsc_model *model, vsc_error *error);
+
+// Obstacles (obstacles.c). VSC_INPUT for a node that begins inside one.
+vsc_status vsc_terms_obstacles(const vsc_mesh *mesh, const vsc_definition *definition,
+                               vsc_model *model, vsc_error *error);
 
 // Pressures and weights.
 vsc_status vsc_terms_loads(const vsc_definition *definition, vsc_model *model, vsc_error *error);

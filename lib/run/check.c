@@ -23,19 +23,21 @@ static void say_mesh(const vsc_problem *problem, FILE *out)
   const vsc_mesh_report *report = &mesh->report;
   double low[3], high[3];
   vsc_mesh_box(mesh, low, high);
-  fprintf(out, "mesh       %s: %zu nodes, %zu tets, %zu triangles; 1 unit = %g mm\n",
-          problem->scene->mesh_file, mesh->node_count, mesh->element_count, mesh->triangle_count,
+  char kinds[128];
+  fprintf(out, "mesh       %s: %zu nodes, %s, %zu triangles; 1 unit = %g mm\n",
+          problem->scene->mesh_file, mesh->node_count,
+          vsc_mesh_kinds_text(mesh, kinds, sizeof kinds), mesh->triangle_count,
           problem->scene->mesh_unit);
   fprintf(out, "size       %.4g x %.4g x %.4g mm from (%.4g, %.4g, %.4g); tissue %.4g ml, %.4g g\n",
           high[0] - low[0], high[1] - low[1], high[2] - low[2], low[0], low[1], low[2],
           1e-3 * problem->model->total_volume, 1e-3 * problem->model->total_mass);
-  if (report->turned_tets + report->unused_nodes + report->ignored_cells + report->loose_triangles >
+  if (report->turned_elements + report->unused_nodes + report->ignored_cells + report->loose_triangles >
       0)
     fprintf(out,
-            "set right  %zu left-handed tets turned, %zu unused nodes dropped, %zu loose triangles "
+            "set right  %zu left-handed elements turned, %zu unused nodes dropped, %zu loose triangles "
             "dropped, "
             "%zu other cells ignored%s%s\n",
-            report->turned_tets, report->unused_nodes, report->loose_triangles,
+            report->turned_elements, report->unused_nodes, report->loose_triangles,
             report->ignored_cells, report->ignored_kinds[0] ? ": " : "", report->ignored_kinds);
 }
 
@@ -45,14 +47,14 @@ static vsc_status say_quality(const vsc_problem *problem, FILE *out, vsc_error *
   const vsc_status status = vsc_mesh_quality(problem->mesh, &q, error);
   if (status != VSC_OK) return status;
   fprintf(out,
-          "quality    mean ratio %.2f (5 %% below %.2f, %zu poor); dihedral %.1f to %.1f deg; "
+          "quality    shape %.2f (5 %% below %.2f, %zu poor); dihedral %.1f to %.1f deg; "
           "edges %.3g to %.3g mm\n",
-          q.mean_ratio_mean, q.mean_ratio_p5, q.poor, q.min_dihedral, q.max_dihedral,
+          q.shape_mean, q.shape_p5, q.poor, q.min_dihedral, q.max_dihedral,
           q.shortest_edge, q.longest_edge);
   fprintf(out, "worst     ");
   for (size_t k = 0; k < q.worst_count && k < 3; k++)
     fprintf(out, " element %u (%.2f) at (%.4g, %.4g, %.4g)%s", q.worst_source[k],
-            q.worst[k].mean_ratio, q.worst_centre[k][0], q.worst_centre[k][1], q.worst_centre[k][2],
+            q.worst[k].shape, q.worst_centre[k][0], q.worst_centre[k][1], q.worst_centre[k][2],
             k + 1 < q.worst_count && k < 2 ? "," : "\n");
   return VSC_OK;
 }
@@ -110,30 +112,66 @@ static void say_fibers(const vsc_problem *problem, FILE *out)
   fputc('\n', out);
 }
 
-static void say_material(const vsc_material *m, FILE *out)
+static void say_vessels(const vsc_problem *problem, FILE *out)
 {
-  fprintf(out,
-          "material   %s: %zu elements, %.4g ml; E_f,s,n %g, %g, %g; G_fs,sn,nf %g, %g, %g; K %g; "
-          "own K of a "
-          "tet %g kPa; damping %g, %g, %g kPa ms\n",
-          m->name, m->element_count, 1e-3 * m->volume, m->axial[0], m->axial[1], m->axial[2],
-          m->angular[0], m->angular[1], m->angular[2], m->volume_modulus, m->element_modulus,
-          m->damping[0], m->damping[1], m->damping[2]);
+  for (size_t v = 0; v < problem->scene->definition.vessel_count; v++) {
+    const vsc_vessel_def *def = &problem->scene->definition.vessels[v];
+    const vsc_vessel_report *r = &problem->vessels[v];
+    fprintf(out,
+            "vessel     %s: %s, %zu %s, %.4g ml; in the mesh %.4g ml of %s in %zu elements, %zu along "
+            "it (fraction %g and more)\n",
+            def->name, def->file, r->pieces, r->surface ? "triangles" : "segments",
+            1e-3 * r->own_volume, 1e-3 * r->volume, def->material, r->elements, r->directed,
+            def->threshold);
+  }
+}
+
+static void say_law(const vsc_material *m, FILE *out)
+{
+  const vsc_paper_def *p = &m->paper;
+  if (m->law == VSC_LAW_CLASSICAL)
+    fprintf(out, "classical springs on the edges: k_s %g mN/mm, k_d %g mN ms/mm\n",
+            m->classical.stiffness, m->classical.damping);
+  else if (m->law == VSC_LAW_PAPER)
+    fprintf(out,
+            "the paper's law: axial k_s %g, %g, %g mN/mm; angular %g, %g, %g mN; volume %g mN/mm; "
+            "k_d %g, %g, %g mN ms/mm\n",
+            p->axial[0], p->axial[1], p->axial[2], p->angular[0], p->angular[1], p->angular[2],
+            p->volume, p->damping[0], p->damping[1], p->damping[2]);
+  else
+    fprintf(out,
+            "E_f,s,n %g, %g, %g; G_fs,sn,nf %g, %g, %g; K %g; own K of a frame %g kPa; damping %g, "
+            "%g, %g kPa ms\n",
+            m->axial[0], m->axial[1], m->axial[2], m->angular[0], m->angular[1], m->angular[2],
+            m->volume_modulus, m->element_modulus, m->damping[0], m->damping[1], m->damping[2]);
+}
+
+static void say_material(const vsc_model *model, const vsc_material *m, FILE *out)
+{
+  fprintf(out, "material   %s: %zu elements, %.4g ml; ", m->name, m->element_count, 1e-3 * m->volume);
+  say_law(m, out);
+  for (size_t d = 0; d < m->axis_count; d++) {
+    const vsc_axis *axis = &model->axes[m->first_axis + d];
+    fprintf(out, "axis       %s: %zu along (%.3g, %.3g, %.3g) in f, s, n: %g kPa\n", m->name, d + 3,
+            axis->direction[0], axis->direction[1], axis->direction[2], axis->modulus);
+  }
   if (m->active == VSC_ACTIVE_TENSION)
     fprintf(out, "active     %s: tension up to %g kPa, delay %g ms, period %g ms\n", m->name,
             m->tension * vsc_curve_peak(&m->curve), m->delay, m->curve.period);
   if (m->active == VSC_ACTIVE_SPRING)
     fprintf(out,
-            "active     %s: fibre modulus %g to %g kPa, rest stretch 1 to %g, delay %g ms, period "
-            "%g ms\n",
-            m->name, m->axial[0], m->active_stiffness, m->rest_stretch, m->delay, m->curve.period);
+            "active     %s: fibre %s %g to %g %s, rest stretch 1 to %g, delay %g ms, period %g ms\n",
+            m->name, m->law == VSC_LAW_PAPER ? "k_s" : "modulus",
+            m->law == VSC_LAW_PAPER ? m->paper.axial[0] : m->axial[0],
+            m->law == VSC_LAW_PAPER ? m->paper.active : m->active_stiffness,
+            m->law == VSC_LAW_PAPER ? "mN/mm" : "kPa", m->rest_stretch, m->delay, m->curve.period);
 }
 
 static void say_terms(const vsc_model *model, FILE *out)
 {
-  fprintf(out, "terms      axial and angular springs%s; volume of %s%s%s%s",
+  fprintf(out, "terms      springs%s; volume of %s%s%s%s",
           model->terms.damping ? ", axial damping" : "",
-          model->terms.nodal_volume ? "node groups and of each tet" : "each tet",
+          model->terms.nodal_volume ? "node groups and of each element" : "each element",
           model->terms.active == VSC_ACTIVE_SPRING ? "; active springs" : "",
           model->terms.active == VSC_ACTIVE_TENSION ? "; active tension" : "",
           model->terms.gravity ? "; gravity" : "");
@@ -142,6 +180,14 @@ static void say_terms(const vsc_model *model, FILE *out)
             model->pressures[p].peak * vsc_curve_peak(&model->pressures[p].curve),
             model->pressures[p].triangle_count);
   fputc('\n', out);
+  for (size_t o = 0; o < model->obstacle_count; o++) {
+    const vsc_obstacle *it = &model->obstacles[o];
+    fprintf(out, "obstacle   %zu: %s at (%g, %g, %g)", o,
+            it->kind == VSC_OBSTACLE_PLANE ? "plane" : "sphere", it->point[0], it->point[1],
+            it->point[2]);
+    if (it->kind == VSC_OBSTACLE_SPHERE) fprintf(out, ", radius %g mm", it->radius);
+    fprintf(out, ", friction %g, stops %zu nodes\n", it->friction, it->node_count);
+  }
 }
 
 // Seconds of one step, by doing some.
@@ -214,7 +260,8 @@ vsc_status vsc_check(const vsc_problem *problem, FILE *stream, int *warnings, vs
     say_surface(problem, &model->surfaces[s], stream);
   say_supports(problem, stream);
   say_fibers(problem, stream);
-  for (size_t m = 0; m < model->material_count; m++) say_material(&model->materials[m], stream);
+  say_vessels(problem, stream);
+  for (size_t m = 0; m < model->material_count; m++) say_material(model, &model->materials[m], stream);
   say_terms(model, stream);
   vsc_state *state;
   status = vsc_state_create(model, &state, error);

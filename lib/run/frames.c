@@ -61,7 +61,9 @@ static int read_fields(vsc_job *job, bool first_frame, vsc_vtk_array *arrays)
     double *values;
     if (!VSC_NEW(values, components * (on_nodes ? model->node_count : model->element_count))) return -1;
     vsc_read_field(model, job->state, field, values);
-    arrays[count++] = (vsc_vtk_array){known_fields[k].name, components, values, on_nodes, false};
+    arrays[count++] =
+        (vsc_vtk_array){known_fields[k].name, components, values,
+                        on_nodes ? VSC_ON_NODES : VSC_ON_ELEMENTS, false};
   }
   return count;
 }
@@ -75,13 +77,12 @@ static vsc_status write_frame(vsc_job *job, const char *file, bool first_frame, 
   int count = fields;
   double *regions = region_values(job->problem);
   if (count >= 0 && regions != NULL && is_wanted(output, "region", true, first_frame))
-    arrays[count++] = (vsc_vtk_array){"region", 1, regions, false, true};
+    arrays[count++] = (vsc_vtk_array){"region", 1, regions, VSC_ON_ELEMENTS, true};
   vsc_status status;
   if (count < 0)
     status = vsc_fail_memory(error, "a frame");
   else
-    status = vsc_vtk_write_mesh(file, mesh->node_count, mesh->nodes, mesh->element_count, mesh->corners, 0,
-                                NULL, (size_t)count, arrays, output->double_precision, error);
+    status = vsc_vtk_write_mesh(file, mesh, (size_t)count, arrays, output->double_precision, error);
   for (int k = 0; k < (fields < 0 ? FIELDS : fields); k++) vsc_free((void *)arrays[k].values);
   return status;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run/problem.h"
 
+#include <stdio.h>
 #include <string.h>
 #include <time.h>
 
@@ -43,6 +44,41 @@ static vsc_status make_fibers(vsc_problem *problem, vsc_error *error)
   return status;
 }
 
+// Each tissue without inclusions of its own takes the vessels as inclusions.
+static vsc_status include_vessels(vsc_definition *definition, vsc_error *error)
+{
+  for (size_t m = 0; m < definition->material_count; m++) {
+    vsc_material_def *tissue = &definition->materials[m];
+    if (tissue->law != VSC_LAW_SPRINGS || tissue->inclusion_count > 0 ||
+        !vsc_takes_elements(definition, m))
+      continue;
+    vsc_free(tissue->inclusions);
+    if (!VSC_NEW(tissue->inclusions, definition->vessel_count))
+      return vsc_fail_memory(error, "the vessels of a material");
+    for (size_t v = 0; v < definition->vessel_count; v++) {
+      const vsc_vessel_def *vessel = &definition->vessels[v];
+      if (strcmp(vessel->material, tissue->name) == 0) continue;
+      vsc_inclusion_def *made = &tissue->inclusions[tissue->inclusion_count++];
+      vsc_copy_name(made->material, vessel->material);
+      snprintf(made->fraction_array, VSC_NAME, "%.*s_fraction", VSC_NAME - 10, vessel->name);
+    }
+  }
+  return VSC_OK;
+}
+
+static vsc_status make_vessels(vsc_problem *problem, vsc_error *error)
+{
+  vsc_definition *definition = &problem->scene->definition;
+  if (definition->vessel_count == 0) return VSC_OK;
+  if (!VSC_NEW(problem->vessels, definition->vessel_count))
+    return vsc_fail_memory(error, "the vessels");
+  vsc_status status =
+      vsc_vessels_make(problem->mesh, definition->vessels, definition->vessel_count, problem->axes,
+                       problem->vessels, error);
+  if (status == VSC_OK) status = vsc_fiber_describe(problem->axes, &problem->fibers, error);
+  return status == VSC_OK ? include_vessels(definition, error) : status;
+}
+
 vsc_status vsc_in_scene(const char *file, vsc_status status, vsc_error *error)
 {
   if (status == VSC_OK || error == NULL || strstr(error->text, file) != NULL) return status;
@@ -61,6 +97,7 @@ vsc_status vsc_problem_load(const char *file, const char *const *settings, size_
   if (status == VSC_OK)
     status = vsc_vtk_read_mesh(made->scene->mesh_file, made->scene->mesh_unit, &made->mesh, error);
   if (status == VSC_OK) status = vsc_in_scene(file, make_fibers(made, error), error);
+  if (status == VSC_OK) status = vsc_in_scene(file, make_vessels(made, error), error);
   if (status == VSC_OK)
     status = vsc_in_scene(
         file,
@@ -80,6 +117,7 @@ void vsc_problem_free(vsc_problem *problem)
   if (problem == NULL) return;
   vsc_model_free(problem->model);
   vsc_axes_free(problem->axes);
+  vsc_free(problem->vessels);
   vsc_mesh_free(problem->mesh);
   vsc_scene_free(problem->scene);
   vsc_free(problem);

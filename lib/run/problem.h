@@ -4,6 +4,7 @@
 #define VSC_RUN_PROBLEM_H
 
 #include "fibers/fibers.h"
+#include "fibers/vessels.h"
 #include "io/scene.h"
 #include "model/model.h"
 
@@ -12,12 +13,14 @@ typedef struct vsc_problem {
   vsc_mesh *mesh;
   vsc_axes *axes;
   vsc_fiber_report fibers;  // where the axes came from
+  vsc_vessel_report *vessels;  // of each of the scene's vessels
   vsc_model *model;
   double load_seconds;  // wall clock of reading and building
 } vsc_problem;
 
 // Reads the scene `file` with the `settings` (key=value, setting_count of them), its mesh and
-// fibres, and builds the model. Every check that needs no time step is done. The caller owns
+// fibres, and builds the model. Each tissue of law springs that lists no inclusions gets the scene's
+// vessels as inclusions, in problem->scene too. Every check that needs no time step is done. The caller owns
 // *problem.
 vsc_status vsc_problem_load(const char *file, const char *const *settings, size_t setting_count,
                             vsc_problem **problem, vsc_error *error);

@@ -6,7 +6,7 @@
 #include "run/job.h"
 
 // Scalars of a checkpoint, in the order of list_scalars.
-enum { CLOCK = 0, LIMIT = 2, WORKS = 8, WATCH = 13, SCALARS = 17, BLOCKS = 9 };
+enum { CLOCK = 0, LIMIT = 2, WORKS = 8, WATCH = 13, SCALARS = 17, BLOCKS = 10 };
 
 static void list_scalars(vsc_job *job, double *places[SCALARS])
 {
@@ -47,6 +47,8 @@ static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[
       {"velocity", "mm/ms", nodes, 4, state->v},
       {"acceleration", "mm/ms^2", nodes, 4, state->a},
       {"stiffest_mode", "1", nodes, 4, state->limit.mode},
+      {"contact", "mN ms, uJ, uJ, mN ms, ms", job->problem->model->obstacle_count + 1,
+       sizeof *state->contact / sizeof(double), (double *)state->contact},
       {"time_and_steps", "ms, 1", LIMIT - CLOCK, 1, scalars + CLOCK},
       {"step_limit", "1/ms^2, ms, ms, ms, 1, ms", WORKS - LIMIT, 1, scalars + LIMIT},
       {"works", "uJ, uJ, uJ, uJ, 1", WATCH - WORKS, 1, scalars + WORKS},
@@ -91,9 +93,17 @@ static void list_arrays(vsc_job *job, double *arrays[4])
   memcpy(arrays, list, sizeof list);
 }
 
+// Numbers of all contact sums.
+static size_t contact_size(const vsc_job *job)
+{
+  const size_t numbers = sizeof *job->state->contact / sizeof(double);
+  return (job->problem->model->obstacle_count + 1) * numbers;
+}
+
 vsc_status vsc_job_make_good(vsc_job *job, vsc_error *error)
 {
-  if (VSC_NEW(job->good, SCALARS + 16 * job->problem->model->node_count)) return VSC_OK;
+  if (VSC_NEW(job->good, SCALARS + 16 * job->problem->model->node_count + contact_size(job)))
+    return VSC_OK;
   return vsc_fail_memory(error, "the last good state");
 }
 
@@ -105,6 +115,7 @@ void vsc_job_keep_good(vsc_job *job)
   take_scalars(job, job->good);
   for (size_t k = 0; k < 4; k++)
     memcpy(job->good + SCALARS + k * count, arrays[k], count * sizeof(double));
+  memcpy(job->good + SCALARS + 4 * count, job->state->contact, contact_size(job) * sizeof(double));
 }
 
 void vsc_job_go_back(vsc_job *job)
@@ -117,4 +128,5 @@ void vsc_job_go_back(vsc_job *job)
   job->watch->rows = rows;  // what is written stays written
   for (size_t k = 0; k < 4; k++)
     memcpy(arrays[k], job->good + SCALARS + k * count, count * sizeof(double));
+  memcpy(job->state->contact, job->good + SCALARS + 4 * count, contact_size(job) * sizeof(double));
 }

@@ -151,10 +151,12 @@ static double next_event(double time, double interval, double end)
   return next < end * (1 - SAME_TIME) ? next : end;
 }
 
-static bool is_event(double time, double interval, double end)
+// Whether a multiple of `interval`, or the end, lies in (before, now]: steps of the user's length go
+// past multiples.
+static bool is_event(double before, double now, double interval, double end)
 {
-  if (time >= end) return true;
-  return interval > 0 && fabs(time - interval * round(time / interval)) <= SAME_TIME * time;
+  if (now >= end * (1 - SAME_TIME)) return true;
+  return interval > 0 && next_event(before, interval, end) <= now * (1 + SAME_TIME);
 }
 
 static vsc_status go_to(vsc_job *job, double time, vsc_error *error)
@@ -191,16 +193,17 @@ static vsc_status advance(vsc_job *job, double stop, vsc_error *error)
   // the ledger wants a look at least every LONGEST_LOOK, however rare the rows are
   const double look = output->signal_interval / ceil(output->signal_interval / LONGEST_LOOK);
   while (state->time < stop * (1 - SAME_TIME) && status == VSC_OK) {
-    double next = next_event(state->time, look, end);
+    const double before = state->time;
+    double next = next_event(before, look, end);
     next = fmin(next, next_event(state->time, output->frame_interval, end));
     next = fmin(next, next_event(state->time, output->checkpoint_interval, end));
     status = go_to_look(job, next, error);
-    if (status == VSC_OK && is_event(next, output->signal_interval, end))
+    if (status == VSC_OK && is_event(before, state->time, output->signal_interval, end))
       status = write_row(job, error);
-    if (status == VSC_OK && is_event(next, output->frame_interval, end))
+    if (status == VSC_OK && is_event(before, state->time, output->frame_interval, end))
       status = vsc_job_write_frame(job, error);
     if (status == VSC_OK && output->checkpoint_interval > 0 &&
-        is_event(next, output->checkpoint_interval, end))
+        is_event(before, state->time, output->checkpoint_interval, end))
       status = vsc_job_save(job, error);
     if (status == VSC_OK && job->options->progress != NULL)
       job->options->progress(job->options->progress_context, state->time, end,

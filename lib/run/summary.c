@@ -54,6 +54,9 @@ static void write_body(const vsc_job *job, const vsc_run_result *result, const c
   write_number(file, "time_s", 1e-3 * job->state->time, ",");
   write_number(file, "steps", job->state->steps, ",");
   write_number(file, "steps_this_run", result->steps, ",");
+  if (model->force_step) write_string(file, "forced_step", "above the stable step if need be", ",");
+  if (model->terms.paper)
+    write_string(file, "conservative", "no: law paper keeps neither energy nor momenta", ",");
   write_number(file, "step_estimates", job->state->limit.refreshes, ",");
   write_number(file, "most_inverted_elements", job->most_inverted, ",");
   write_number(file, "frames", (double)result->frames, ",");

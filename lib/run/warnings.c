@@ -29,7 +29,17 @@ static double largest(const double three[3])
   return fmax(three[0], fmax(three[1], three[2]));
 }
 
-static void warn_material(writer *w, const vsc_model *model, const vsc_material *material)
+// Law PAPER is there to be compared with: its angular and radial forces derive from no energy.
+static void warn_law(writer *w, const vsc_material *material)
+{
+  if (material->law == VSC_LAW_PAPER)
+    warn(w,
+         "material %s: law: paper keeps neither energy nor momenta, and its stiffness depends on the "
+         "size of the elements; for results use law: springs",
+         material->name);
+}
+
+static void warn_springs(writer *w, const vsc_model *model, const vsc_material *material)
 {
   const double stiff = largest(material->axial),
                shear = fmax(largest(material->angular), stiff / 2);
@@ -52,8 +62,44 @@ static void warn_material(writer *w, const vsc_model *model, const vsc_material 
          "set "
          "stabilization to about the shear modulus (%g kPa)",
          material->name, shear);
-  if (material->element_count == 0)
+}
+
+static void warn_material(writer *w, const vsc_problem *problem, size_t m)
+{
+  const vsc_material *material = &problem->model->materials[m];
+  const bool takes_elements = vsc_takes_elements(&problem->scene->definition, m);
+  if (material->element_count == 0 && takes_elements)
     warn(w, "material %s: no element has its regions", material->name);
+  if (!takes_elements) return;
+  if (material->law == VSC_LAW_SPRINGS)
+    warn_springs(w, problem->model, material);
+  else
+    warn_law(w, material);
+}
+
+static void warn_vessels(writer *w, const vsc_problem *problem)
+{
+  for (size_t v = 0; v < problem->scene->definition.vessel_count; v++) {
+    const char *name = problem->scene->definition.vessels[v].name;
+    const vsc_vessel_report *r = &problem->vessels[v];
+    const double part = (r->volume + r->shared) / r->own_volume;
+    if (r->open_edges + r->turned_edges > 0)
+      warn(w,
+           "vessel %s: %zu edges of its surface are open and %zu lie between triangles of opposite "
+           "senses: what is inside was guessed from six sides",
+           name, r->open_edges, r->turned_edges);
+    if (part < 0.5)
+      warn(w,
+           "vessel %s: only %.0f %% of its volume lies in the mesh: are its unit and coordinates "
+           "those of the mesh?",
+           name, 100 * part);
+    if (part > 1.05)
+      warn(w, "vessel %s: it fills %.0f %% of its own volume: is its surface closed?", name,
+           100 * part);
+    if (r->shared > 0.05 * r->own_volume)
+      warn(w, "vessel %s: %.3g ml of it lie in vessels listed before it and count for those", name,
+           1e-3 * r->shared);
+  }
 }
 
 static void warn_fibers(writer *w, const vsc_problem *problem)
@@ -92,9 +138,12 @@ static void warn_setting(writer *w, const vsc_problem *problem)
     warn(w, "mesh: its box is %.3g x %.3g x %.3g mm: is mesh.unit right?", size[0], size[1],
          size[2]);
   const bool driven = model->pressure_count > 0 || model->terms.gravity;
-  if (model->held_count == 0 && driven)
+  if (model->held_count == 0 && model->obstacle_count == 0 && driven)
     warn(w, "supports: nothing is held, so the load will carry the body away");
-  if (model->terms.active == VSC_ACTIVE_NONE && !driven)
+  bool pushed = false;
+  for (size_t o = 0; o < model->obstacle_count; o++)
+    pushed |= vsc_norm(model->obstacles[o].motion) > 0;
+  if (model->terms.active == VSC_ACTIVE_NONE && !driven && !pushed)
     warn(w, "nothing will move: no active material, no pressure, no gravity");
   if (!model->terms.damping) warn(w, "materials: no damping, so vibrations never die away");
 }
@@ -103,8 +152,9 @@ int vsc_check_warnings(const vsc_problem *problem, FILE *stream, const char *pre
 {
   writer w = {stream, prefix, 0};
   for (size_t m = 0; m < problem->model->material_count; m++)
-    warn_material(&w, problem->model, &problem->model->materials[m]);
+    warn_material(&w, problem, m);
   warn_fibers(&w, problem);
+  warn_vessels(&w, problem);
   warn_setting(&w, problem);
   return w.count;
 }

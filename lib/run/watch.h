@@ -9,8 +9,11 @@
 #include "mesh/surface.h"
 #include "run/problem.h"
 
-// Columns of signals.csv: 28, and one for each cavity and pressure.
-enum { VSC_SIGNALS = 28 + VSC_OUTPUT_ARRAYS + VSC_MOST_PRESSURES, VSC_SIGNAL_NAME = 96 };
+// Columns of signals.csv: 36, one for each cavity and pressure, three for each obstacle.
+enum {
+  VSC_SIGNALS = 36 + VSC_OUTPUT_ARRAYS + VSC_MOST_PRESSURES + 3 * VSC_MOST_OBSTACLES,
+  VSC_SIGNAL_NAME = 96
+};
 
 typedef struct vsc_watch {
   FILE *file;          // signals.csv, open for appending
@@ -33,7 +36,8 @@ vsc_status vsc_watch_open(const vsc_problem *problem, const char *file, double k
 
 // Observes the state and carries the energy ledger on. VSC_NUMERICAL when the energy balance has
 // jumped by more than 5 % of the largest energy seen (at least that of 3 % strain everywhere): the
-// simulation is coming apart although all numbers are finite.
+// simulation is coming apart although all numbers are finite. Law PAPER, which makes energy, and a
+// forced step are not held to it.
 vsc_status vsc_watch_observe(const vsc_problem *problem, vsc_state *state, vsc_watch *watch,
                              vsc_error *error);
 

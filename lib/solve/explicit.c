@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "mech/force.h"
 #include "mech/step_limit.h"
+#include "solve/contact.h"
 
 // The step is re-estimated at intervals between these, ms: twice as late while the eigenvalue stays
 // within 2 %, twice as soon when it moved by more than 10 %.
@@ -69,8 +70,12 @@ static void kick_and_drift(void *context, size_t piece, int thread)
 {
   (void)thread;
   const motion *m = context;
-  for (size_t n = piece * NODES_PER_PIECE; n < piece_end(m, piece); n++)
-    drift_node(m, n, kick_node(m, n));
+  const bool keep = m->model->obstacle_count > 0;  // contact counts work with the acceleration
+  for (size_t n = piece * NODES_PER_PIECE; n < piece_end(m, piece); n++) {
+    const vsc_wide a = kick_node(m, n);
+    if (keep) ((vsc_wide *)m->state->a)[n] = a;
+    drift_node(m, n, a);
+  }
 }
 
 void vsc_steps(const vsc_model *model, vsc_state *state, double dt, double count)
@@ -82,9 +87,11 @@ void vsc_steps(const vsc_model *model, vsc_state *state, double dt, double count
   for (double k = 1; k <= count; k++) {
     state->time += dt;
     state->steps++;
+    if (model->obstacle_count > 0) vsc_contact_resolve(model, state, dt, true);
     vsc_force(model, state->x, velocity, state->time, &state->scratch, state->force);
     vsc_parallel_for(pieces, k < count ? kick_and_drift : kick, &m);
   }
+  if (model->obstacle_count > 0) vsc_contact_settle(model, state, dt);
 }
 
 // The time at which the most is active, for the estimate before the first step.
@@ -112,11 +119,11 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
     return vsc_fail(error, VSC_NUMERICAL,
                     "no stable time step was found: every node is held or nothing is stiff; check "
                     "supports and moduli");
-  if (model->step > stable)
+  if (model->step > stable && !model->force_step)
     return vsc_fail(error, VSC_INPUT,
                     "time.step: %.6g ms is above the stable step of %.6g ms (at rest %.6g, at full "
                     "activation %.6g); "
-                    "use `step: auto` or a smaller step",
+                    "use `step: auto`, a smaller step, or `force: true` to see what happens",
                     model->step, stable, state->limit.step, active_step);
   state->limit.time = state->time;
   state->limit.interval = SHORTEST_TRUST;
@@ -143,7 +150,7 @@ static vsc_status refresh_limit(const vsc_model *model, vsc_state *state, vsc_er
                     "torn or crushed; take "
                     "more damping or a smaller load",
                     state->time, limit->first, limit->step);
-  if (model->step > limit->step / model->safety)
+  if (model->step > limit->step / model->safety && !model->force_step)
     return vsc_fail(error, VSC_NUMERICAL,
                     "at %.6g ms the tissue has become too stiff for time.step %.6g ms: the stable "
                     "step is now %.6g ms; "
@@ -166,19 +173,36 @@ static vsc_status check_finite(const vsc_model *model, const vsc_state *state, v
       state->time, state->steps, model->mesh_node[bad], rest[0], rest[1], rest[2]);
 }
 
+// Steps on to `stop` in equal steps not longer than the stable one.
+static void step_to(const vsc_model *model, vsc_state *state, double stop)
+{
+  const double start = state->time;
+  const double steps = fmax(ceil((stop - start) / state->limit.step * (1 - 1e-12)), 1);
+  vsc_steps(model, state, (stop - start) / steps, steps);
+  state->time = stop;
+}
+
+// Steps of the user's length, counted from time 0, to the first that is not before `stop`.
+static void fixed_steps_to(const vsc_model *model, vsc_state *state, double stop)
+{
+  const double done = round(state->time / model->step);
+  const double steps = fmax(ceil(stop / model->step * (1 - 1e-12)) - done, 1);
+  vsc_steps(model, state, model->step, steps);
+  state->time = (done + steps) * model->step;
+}
+
 vsc_status vsc_advance(const vsc_model *model, vsc_state *state, double until, vsc_error *error)
 {
-  while (state->time < until) {
+  while (state->time < until * (1 - 1e-12)) {
     if (state->time - state->limit.time >= state->limit.interval * (1 - 1e-9)) {
       const vsc_status status = refresh_limit(model, state, error);
       if (status != VSC_OK) return status;
     }
     const double stop = fmin(until, state->limit.time + state->limit.interval);
-    const double step = model->step > 0 ? model->step : state->limit.step;
-    const double start = state->time;
-    const double steps = fmax(ceil((stop - start) / step * (1 - 1e-12)), 1);
-    vsc_steps(model, state, (stop - start) / steps, steps);
-    state->time = stop;
+    if (model->step > 0)
+      fixed_steps_to(model, state, stop);
+    else
+      step_to(model, state, stop);
     const vsc_status status = check_finite(model, state, error);
     if (status != VSC_OK) return status;
   }

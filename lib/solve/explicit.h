@@ -7,17 +7,19 @@
 
 // Prepares a new state for stepping: the first estimate of the stable step, at rest and at full
 // activation (the smaller counts), and the first acceleration. Refuses (VSC_INPUT) a user's step
-// above the stable one, with both numbers.
+// above the stable one, with both numbers, unless the model forces it.
 vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error);
 
 // `count` (at least 1) steps of length dt (ms), each
 //   v <- v + dt/2 a;  x <- x + dt v;  a <- f(x, v + dt/2 a, t + dt) / m;  v <- v + dt/2 a.
+// After the drift nodes are put out of obstacles (contact.h).
 // Second order, symplectic without damping. Damping sees the velocity predicted for the step's end.
 // Neither the limit nor the result is checked: vsc_advance does.
 void vsc_steps(const vsc_model *model, vsc_state *state, double dt, double count);
 
 // Steps from state->time to `until` (ms) in equal steps not longer than the stable one, which is
-// re-estimated at least every 4 ms. VSC_NUMERICAL when a position or velocity is no longer
+// re-estimated at least every 4 ms; with a step given by the user, in steps of just that length to
+// the first of its multiples that is not before `until`. VSC_NUMERICAL when a position or velocity is no longer
 // finite or a user's step has become unstable: the message names node, place and time.
 vsc_status vsc_advance(const vsc_model *model, vsc_state *state, double until, vsc_error *error);
 

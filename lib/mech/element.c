@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mech/element.h"
+
+static void paper_law(const vsc_model *model, const vsc_patch *patch, size_t k, vsc_pack_law *law)
+{
+  const vsc_paper_def *paper = &model->materials[patch->material].paper;
+  const void *data = vsc_pack_law_data(model, patch, k);
+  const bool tets = patch->family == VSC_TETS;
+  const vsc_wide *r = tets ? ((const vsc_chords *)data)->r : ((const vsc_hex_axes *)data)->r;
+  const vsc_wide V =
+      tets ? vsc_pack_frames(model, patch, k)->V : ((const vsc_hex_axes *)data)->volume;
+  const vsc_wide inverse = vsc_where(V > 0, 1.0 / vsc_select(V > 0, V, vsc_splat(1)));
+  for (int a = 0; a < 3; a++) {
+    law->springs.axial[a] = paper->axial[a] * r[a] * r[a] * inverse;
+    law->springs.angular[a] = 0.5 * paper->angular[a] * (r[a] + r[(a + 1) % 3]) * inverse;
+    law->damping[a] = paper->damping[a] * r[a] * r[a] * inverse;
+  }
+  law->active_axial = paper->active * r[0] * r[0] * inverse;
+}
+
+static void mixed_law(const vsc_mixture *mixture, vsc_pack_law *law)
+{
+  for (int a = 0; a < 3; a++) {
+    law->springs.axial[a] = mixture->axial[a];
+    law->springs.angular[a] = mixture->angular[a];
+    law->damping[a] = mixture->damping[a];
+  }
+  law->volume_modulus = mixture->volume_modulus;
+  law->stabilization = mixture->stabilization;
+  law->element_modulus = mixture->element_modulus;
+  law->share = mixture->share;
+}
+
+vsc_pack_law vsc_pack_law_of(const vsc_model *model, const vsc_patch *patch, size_t k)
+{
+  const vsc_material *material = &model->materials[patch->material];
+  vsc_pack_law law = {.springs.rest_stretch = vsc_splat(1), .share = vsc_splat(1)};
+  for (int a = 0; a < 3; a++) {
+    law.springs.axial[a] = vsc_splat(material->axial[a]);
+    law.springs.angular[a] = vsc_splat(material->angular[a]);
+    law.damping[a] = vsc_splat(material->damping[a]);
+  }
+  law.volume_modulus = vsc_splat(material->volume_modulus);
+  law.stabilization = vsc_splat(material->stabilization);
+  law.element_modulus = vsc_splat(material->element_modulus);
+  if (patch->mixed) mixed_law(vsc_pack_mixture(model, patch, k), &law);
+  law.active_axial =
+      law.springs.axial[0] + law.share * (material->active_stiffness - material->axial[0]);
+  if (patch->law_data) paper_law(model, patch, k, &law);
+  return law;
+}
+
+double vsc_active_tension(const vsc_material *material, const vsc_pack_law *law, int lane, double a,
+                          double stretch, double *nominal)
+{
+  if (material->active == VSC_ACTIVE_TENSION) {
+    const double tension = law->share[lane] * a * material->tension;
+    *nominal = tension * stretch;
+    return tension;
+  }
+  const double passive = law->springs.axial[0][lane];
+  const double E = passive + a * (law->active_axial[lane] - passive);
+  const double rest = 1 - a * (1 - material->rest_stretch);
+  *nominal = E * (stretch - rest) - passive * (stretch - 1);
+  return *nominal;
+}

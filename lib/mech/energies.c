@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mech/energies.h"
+
+#include "mech/element.h"
+#include "model/law_volume.h"
+
+// Corner positions (or velocities) of four elements.
+static void corners_of(const vsc_model *model, const vsc_patch *patch,
+                       const uint16_t (*node)[VSC_WIDTH], int corners, const double *nodes,
+                       vsc_wide3 *x)
+{
+  for (int c = 0; c < corners; c++)
+    for (int l = 0; l < VSC_WIDTH; l++) {
+      const double *at = nodes + 4 * (size_t)vsc_node_of(model, patch, node[c][l]);
+      x[c].x[l] = at[0];
+      x[c].y[l] = at[1];
+      x[c].z[l] = at[2];
+    }
+}
+
+static vsc_wide3 difference(vsc_wide3 a, vsc_wide3 b)
+{
+  return (vsc_wide3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static vsc_wide length_of(vsc_wide3 a)
+{
+  return vsc_wide_sqrt(vsc_wide_dot(a, a));
+}
+
+static vsc_wide per_length(vsc_wide number, vsc_wide length)
+{
+  const vsc_wide_mask long_enough = length > VSC_SHORTEST_AXIS;
+  return vsc_where(long_enough, number / vsc_select(long_enough, length, vsc_splat(1)));
+}
+
+static vsc_wide volume_energy(vsc_wide K, vsc_wide J)
+{
+  vsc_wide energy;
+  for (int l = 0; l < VSC_WIDTH; l++) energy[l] = vsc_volume_energy(K[l], J[l]);
+  return energy;
+}
+
+static vsc_wide3 along_axis(const double d[3], const vsc_wide3 g[3])
+{
+  return vsc_wide_combine(vsc_splat(d[0]), g[0], vsc_splat(d[1]), g[1], vsc_splat(d[2]), g[2]);
+}
+
+// ---- cells
+
+static void add_more_axes(const vsc_model *model, const vsc_material *material, vsc_wide V,
+                          const vsc_wide3 g[3], const vsc_wide3 rate[3], vsc_pack_energies *sum)
+{
+  for (size_t d = 0; d < material->axis_count; d++) {
+    const vsc_axis *axis = &model->axes[material->first_axis + d];
+    const vsc_wide3 way = along_axis(axis->direction, g);
+    const vsc_wide length = length_of(way), strain = length - 1;
+    const vsc_wide speed = per_length(vsc_wide_dot(along_axis(axis->direction, rate), way), length);
+    sum->axial += 0.5 * axis->modulus * V * strain * strain;
+    sum->dissipation += axis->damping * V * speed * speed;
+  }
+  for (size_t d = 0; d < material->pair_count; d++) {
+    const vsc_pair *pair = &model->pairs[material->first_pair + d];
+    const vsc_wide3 first = along_axis(pair->first, g), second = along_axis(pair->second, g);
+    const vsc_wide c =
+        per_length(per_length(vsc_wide_dot(first, second), length_of(first)), length_of(second));
+    sum->angular += 0.5 * pair->modulus * V * (c - pair->cosine) * (c - pair->cosine);
+  }
+}
+
+static vsc_pack_energies spring_cells(const vsc_model *model, const vsc_patch *patch, size_t k,
+                                      const double *x, const double *v)
+{
+  const vsc_pack_law law = vsc_pack_law_of(model, patch, k);
+  const vsc_frame *frames = vsc_pack_frames(model, patch, k);
+  const int points = vsc_family_frames(model, patch->family);
+  vsc_pack_energies sum = {0};
+  vsc_wide rest = vsc_splat(0), now = vsc_splat(0);
+  for (int q = 0; q < points; q++) {
+    const vsc_wide V = frames[q].V;
+    vsc_wide3 g[3], rate[3] = {0};
+    vsc_pack_axes(model, patch, k, q, x, g);
+    if (model->terms.damping) vsc_pack_axes(model, patch, k, q, v, rate);
+    const vsc_frame_axes axes = vsc_frame_of(g);
+    const vsc_wide J = vsc_pack_ratio(g);
+    sum.axial += V * vsc_springs_axial_energy(&law.springs, &axes);
+    sum.angular += V * vsc_springs_angular_energy(&law.springs, &axes);
+    for (int a = 0; a < 3; a++) {
+      const vsc_wide speed = vsc_wide_dot(rate[a], axes.u[a]);
+      sum.dissipation += V * law.damping[a] * speed * speed;
+    }
+    add_more_axes(model, &model->materials[patch->material], law.share * V, g, rate, &sum);
+    sum.volume +=
+        V * volume_energy(patch->family == VSC_TETS ? law.element_modulus : law.stabilization, J);
+    rest += V;
+    now += V * J;
+  }
+  if (patch->family != VSC_TETS) {
+    const vsc_wide J = vsc_select(rest > 0, now / vsc_select(rest > 0, rest, vsc_splat(1)), vsc_splat(1));
+    sum.volume += rest * volume_energy(law.volume_modulus, J);
+  }
+  return sum;
+}
+
+// ---- law PAPER
+
+static void add_paper_axes(const vsc_paper_def *paper, const vsc_wide3 l[3], const vsc_wide3 rate[3],
+                           const vsc_wide r[3], vsc_pack_energies *sum)
+{
+  vsc_wide length[3];
+  for (int a = 0; a < 3; a++) {
+    length[a] = length_of(l[a]);
+    const vsc_wide speed = per_length(vsc_wide_dot(rate[a], l[a]), length[a]);
+    sum->axial += 0.5 * paper->axial[a] * (length[a] - r[a]) * (length[a] - r[a]);
+    sum->dissipation += paper->damping[a] * speed * speed;
+  }
+  for (int a = 0; a < 3; a++) {
+    const int b = (a + 1) % 3;
+    const vsc_wide c = per_length(per_length(vsc_wide_dot(l[a], l[b]), length[a]), length[b]);
+    sum->angular += 0.25 * paper->angular[a] * (r[a] + r[b]) * c * c;
+  }
+}
+
+static vsc_pack_energies paper_cells(const vsc_model *model, const vsc_patch *patch, size_t k,
+                                     const double *x, const double *v)
+{
+  const vsc_paper_def *paper = &model->materials[patch->material].paper;
+  const bool tets = patch->family == VSC_TETS;
+  const int corners = tets ? 4 : 8;
+  const vsc_chords *chords = vsc_pack_law_data(model, patch, k);
+  const vsc_hex_axes *axes = vsc_pack_law_data(model, patch, k);
+  vsc_pack_energies sum = {0};
+  vsc_wide3 at[8], speed[8], l[3] = {0}, rate[3] = {0}, centre = {0}, drift = {0};
+  corners_of(model, patch, vsc_pack_nodes(model, patch, k), corners, x, at);
+  corners_of(model, patch, vsc_pack_nodes(model, patch, k), corners, v, speed);
+  if (tets) {
+    vsc_pack_axes(model, patch, k, 0, x, l);
+    vsc_pack_axes(model, patch, k, 0, v, rate);
+    for (int a = 0; a < 3; a++) {
+      l[a] = vsc_wide_scale(chords->r[a], l[a]);
+      rate[a] = vsc_wide_scale(chords->r[a], rate[a]);
+    }
+  }
+  for (int a = 0; a < 3 && !tets; a++)
+    for (int i = 0; i < 8; i++) {
+      l[a] = vsc_wide_add(l[a], vsc_wide_scale(axes->w[a][i], at[i]));
+      rate[a] = vsc_wide_add(rate[a], vsc_wide_scale(axes->w[a][i], speed[i]));
+    }
+  add_paper_axes(paper, l, rate, tets ? chords->r : axes->r, &sum);
+  const vsc_wide part = vsc_splat(1.0 / corners);
+  for (int i = 0; i < corners; i++) {
+    centre = vsc_wide_add(centre, vsc_wide_scale(part, at[i]));
+    drift = vsc_wide_add(drift, vsc_wide_scale(part, speed[i]));
+  }
+  vsc_wide radius = vsc_splat(0);
+  for (int i = 0; i < corners; i++) {
+    const vsc_wide3 d = difference(at[i], centre);
+    const vsc_wide length = length_of(d);
+    radius += length;
+    if (tets) continue;
+    // the barycentre is not pulled back, so the power is that of the corner alone
+    const vsc_wide change = per_length(vsc_wide_dot(difference(speed[i], drift), d), length);
+    const vsc_wide own = per_length(vsc_wide_dot(speed[i], d), length);
+    sum.volume += 0.5 * paper->volume * (length - axes->radius[i]) * (length - axes->radius[i]);
+    sum.dissipation += paper->volume_damping * change * own;
+  }
+  if (tets) sum.volume += 0.5 * paper->volume * (radius - chords->radius) * (radius - chords->radius);
+  return sum;
+}
+
+// ---- classical springs
+
+static vsc_pack_energies edge_springs(const vsc_model *model, const vsc_patch *patch, size_t k,
+                                      const double *x, const double *v)
+{
+  const vsc_classical_def *law = &model->materials[patch->material].classical;
+  const vsc_edge_pack *pack =
+      (const vsc_edge_pack *)(model->store + patch->packs) + (k - patch->first_pack);
+  vsc_wide3 at[2], speed[2];
+  corners_of(model, patch, pack->node, 2, x, at);
+  corners_of(model, patch, pack->node, 2, v, speed);
+  const vsc_wide3 way = difference(at[0], at[1]);
+  const vsc_wide length = length_of(way), strain = length - pack->length;
+  const vsc_wide change = per_length(vsc_wide_dot(difference(speed[0], speed[1]), way), length);
+  return (vsc_pack_energies){.axial = 0.5 * law->stiffness * strain * strain,
+                             .dissipation = law->damping * change * change};
+}
+
+vsc_pack_energies vsc_pack_energies_of(const vsc_model *model, const vsc_patch *patch, size_t k,
+                                       const double *x, const double *v)
+{
+  if (patch->family == VSC_SPRINGS_ON_EDGES) return edge_springs(model, patch, k, x, v);
+  switch (model->materials[patch->material].law) {
+    case VSC_LAW_PAPER:
+      return paper_cells(model, patch, k, x, v);
+    case VSC_LAW_CLASSICAL:
+      return (vsc_pack_energies){0};
+    default:
+      return spring_cells(model, patch, k, x, v);
+  }
+}

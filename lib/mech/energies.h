@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a pack of elements stores and dissipates. Internal to mech.
+#ifndef VSC_MECH_ENERGIES_H
+#define VSC_MECH_ENERGIES_H
+
+#include "model/model.h"
+
+// Of four elements; uJ and uJ/ms.
+typedef struct vsc_pack_energies {
+  vsc_wide axial;    // axial springs at their passive moduli, classical springs
+  vsc_wide angular;  // angular springs
+  vsc_wide volume;   // the elements' own volume energies (not those of node groups)
+  vsc_wide dissipation;
+} vsc_pack_energies;
+
+// Energies of pack `k` of any patch at positions x (node_count x 4, in the model's order) and
+// velocities v. Law PAPER stores k (|l|-r)^2/2 in an axis, k (r_a + r_b)/2 c^2/2 between two and
+// k (sum d - sum d at rest)^2/2 radially: the energies whose gradients its forces come nearest to.
+vsc_pack_energies vsc_pack_energies_of(const vsc_model *model, const vsc_patch *patch, size_t k,
+                                       const double *x, const double *v);
+
+#endif

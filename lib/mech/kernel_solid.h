@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Hexahedra, wedges and pyramids under law SPRINGS: several frames that share one volume ratio and
+// one pressure (mean dilatation). Internal to mech; included by kernel_body.h.
+#ifndef VSC_MECH_KERNEL_SOLID_H
+#define VSC_MECH_KERNEL_SOLID_H
+
+#include "mech/kernel_common.h"
+
+// ---- h_k = sum_i D_ki x_i at all points, and back: f_i = sum_q sum_k D_ki q_k
+
+VSC_INLINE void plain_derivatives(const vsc_cell_rule *rule, int corners, int points,
+                                  const vsc_wide3 *x, vsc_wide3 (*h)[3])
+{
+  for (int q = 0; q < points; q++)
+    for (int k = 0; k < 3; k++) {
+      h[q][k] = vsc_wide_scale(vsc_splat(rule->D[q][k][0]), x[0]);
+      for (int c = 1; c < corners; c++)
+        h[q][k] = vsc_wide_add(h[q][k], vsc_wide_scale(vsc_splat(rule->D[q][k][c]), x[c]));
+    }
+}
+
+VSC_INLINE void plain_back(const vsc_cell_rule *rule, int corners, int points,
+                           vsc_wide3 (*flux)[3], vsc_wide3 *f)
+{
+  for (int c = 0; c < corners; c++) f[c] = wide_zero();
+  for (int q = 0; q < points; q++)
+    for (int k = 0; k < 3; k++)
+      for (int c = 0; c < corners; c++)
+        f[c] = vsc_wide_add(f[c], vsc_wide_scale(vsc_splat(rule->D[q][k][c]), flux[q][k]));
+}
+
+// A hexahedron's trilinear map in modes: x = sum over sets S of {1, 2, 3} of m_S prod_{k in S} xi_k,
+// m_S = 1/8 sum_i prod_{k in S} sign_ik x_i. The set is a number of three bits, and so is a corner
+// (bit k: sign_ik = +1) and a point: three rounds of sums and differences lead from one to the other.
+VSC_INLINE void butterflies(vsc_wide3 m[8])
+{
+  for (int bit = 1; bit < 8; bit *= 2)
+    for (int i = 0; i < 8; i++) {
+      if (i & bit) continue;
+      const vsc_wide3 low = m[i], high = m[i | bit];
+      m[i] = vsc_wide_add(low, high);
+      m[i | bit] = vsc_wide_minus(high, low);
+    }
+}
+
+static const int hex_corner_bits[8] = {0, 1, 3, 2, 4, 5, 7, 6};  // of VTK's corner i
+#define GAUSS_POINT 0.57735026918962576451  // 1/sqrt 3
+
+// h_1 = m_1 + m_12 xi_2 + m_13 xi_3 + m_123 xi_2 xi_3, and cyclically, at xi = +- 1/sqrt 3.
+VSC_INLINE void hex_derivatives(const vsc_wide3 x[8], vsc_wide3 (*h)[3])
+{
+  vsc_wide3 m[8];
+  for (int i = 0; i < 8; i++) m[hex_corner_bits[i]] = x[i];
+  butterflies(m);
+  for (int k = 0; k < 3; k++) {
+    const int own = 1 << k, one = 1 << (k + 1) % 3, two = 1 << (k + 2) % 3;
+    const vsc_wide scale = vsc_splat(0.125), slope = vsc_splat(0.125 * GAUSS_POINT);
+    const vsc_wide3 level = vsc_wide_scale(scale, m[own]);
+    const vsc_wide3 first = vsc_wide_scale(slope, m[own | one]);
+    const vsc_wide3 second = vsc_wide_scale(slope, m[own | two]);
+    const vsc_wide3 twist = vsc_wide_scale(vsc_splat(0.125 / 3), m[own | one | two]);
+    const vsc_wide3 below = vsc_wide_minus(level, second), above = vsc_wide_add(level, second);
+    const vsc_wide3 low = vsc_wide_minus(first, twist), high = vsc_wide_add(first, twist);
+    for (int q = 0; q < 8; q += 1) {
+      if (q & own) continue;
+      const vsc_wide3 base = q & two ? above : below, tilt = q & two ? high : low;
+      h[q][k] = q & one ? vsc_wide_add(base, tilt) : vsc_wide_minus(base, tilt);
+      h[q | own][k] = h[q][k];
+    }
+  }
+}
+
+// The transpose of hex_derivatives.
+VSC_INLINE void hex_back(vsc_wide3 (*flux)[3], vsc_wide3 f[8])
+{
+  vsc_wide3 m[8];
+  for (int i = 0; i < 8; i++) m[i] = wide_zero();
+  for (int k = 0; k < 3; k++) {
+    const int own = 1 << k, one = 1 << (k + 1) % 3, two = 1 << (k + 2) % 3;
+    vsc_wide3 part[4];
+    for (int p = 0; p < 4; p++) {
+      const int q = (p & 1 ? one : 0) | (p & 2 ? two : 0);
+      part[p] = vsc_wide_add(flux[q][k], flux[q | own][k]);
+    }
+    const vsc_wide3 below = vsc_wide_add(part[0], part[1]), above = vsc_wide_add(part[2], part[3]);
+    const vsc_wide3 low = vsc_wide_minus(part[1], part[0]), high = vsc_wide_minus(part[3], part[2]);
+    const vsc_wide slope = vsc_splat(0.125 * GAUSS_POINT), scale = vsc_splat(0.125);
+    m[own] = vsc_wide_add(m[own], vsc_wide_scale(scale, vsc_wide_add(below, above)));
+    m[own | one] = vsc_wide_add(m[own | one], vsc_wide_scale(slope, vsc_wide_add(low, high)));
+    m[own | two] = vsc_wide_add(m[own | two], vsc_wide_scale(slope, vsc_wide_minus(above, below)));
+    m[7] = vsc_wide_add(m[7], vsc_wide_scale(vsc_splat(0.125 / 3), vsc_wide_minus(high, low)));
+  }
+  // from modes to corners: the sum of +- m_S, the sign being minus for each k of S whose bit is 0
+  for (int bit = 1; bit < 8; bit *= 2)
+    for (int i = 0; i < 8; i++) {
+      if (i & bit) continue;
+      const vsc_wide3 without = m[i], with = m[i | bit];
+      m[i] = vsc_wide_minus(without, with);
+      m[i | bit] = vsc_wide_add(without, with);
+    }
+  for (int i = 0; i < 8; i++) f[i] = m[hex_corner_bits[i]];
+}
+
+VSC_INLINE void derivatives(const vsc_cell_rule *rule, int corners, int points, const vsc_wide3 *x,
+                            vsc_wide3 (*h)[3])
+{
+  if (corners == 8)
+    hex_derivatives(x, h);
+  else
+    plain_derivatives(rule, corners, points, x, h);
+}
+
+// g_a = sum_k T_ak h_k
+VSC_INLINE void solid_axes(const vsc_frame *frame, const vsc_wide3 h[3], vsc_wide3 g[3])
+{
+  for (int a = 0; a < 3; a++)
+    g[a] = vsc_wide_combine(frame->T[a][0], h[0], frame->T[a][1], h[1], frame->T[a][2], h[2]);
+}
+
+// U'(J) of the element: J = sum_q V_q det G_q / sum_q V_q. The axes of all frames come back in g.
+VSC_INLINE vsc_wide shared_pressure(const vsc_frame *frames, int points, vsc_wide modulus,
+                                    vsc_wide3 (*h)[3], vsc_wide3 (*g)[3])
+{
+  vsc_wide volume = vsc_splat(0), rest = vsc_splat(0);
+  for (int q = 0; q < points; q++) {
+    solid_axes(&frames[q], h[q], g[q]);
+    volume += frames[q].V * vsc_wide_dot(g[q][0], vsc_wide_cross(g[q][1], g[q][2]));
+    rest += frames[q].V;
+  }
+  // an empty place has no volume
+  const vsc_wide_mask full = rest > 0;
+  const vsc_wide J = vsc_select(full, volume, vsc_splat(1)) / vsc_select(full, rest, vsc_splat(1));
+  return vsc_volume_stress(modulus, J);
+}
+
+// P_a of one frame: springs, damping, activity, further axes, and the volume's pressure.
+VSC_INLINE void solid_stress(const vsc_patch_work *work, size_t k, const pack_moduli *moduli,
+                             const vsc_wide3 g[3], const vsc_wide3 rate[3], bool damping,
+                             vsc_wide pressure, vsc_wide3 P[3])
+{
+  const vsc_material *material = work->material;
+  const vsc_frame_axes axes = vsc_frame_of(g);
+  vsc_wide along[3] = {vsc_splat(0), vsc_splat(0), vsc_splat(0)};
+  for (int a = 0; damping && a < 3; a++)
+    along[a] = moduli->damping[a] * vsc_wide_dot(rate[a], axes.u[a]);
+  const vsc_wide activation = work->activation[k * work->activation_stride];
+  const vsc_springs law = springs_of(material, moduli, material->active, activation);
+  if (material->active == VSC_ACTIVE_TENSION)
+    along[0] += moduli->share * activation * material->tension * axes.length[0];
+  vsc_springs_stress(&law, &axes, along, P);
+  add_more_axes(work, moduli->share, g, rate, damping, P);
+  vsc_wide3 cofactor[3];
+  const vsc_wide J = cofactor_of(g, cofactor);
+  const vsc_wide p = pressure + vsc_volume_stress(moduli->stabilization, J);
+  for (int a = 0; a < 3; a++) P[a] = vsc_wide_add(P[a], vsc_wide_scale(p, cofactor[a]));
+}
+
+VSC_INLINE void solid_kernel(const vsc_patch_work *work, int corners, int points, bool damping)
+{
+  const size_t bytes = vsc_pack_bytes(corners, points);
+  for (size_t k = 0; k < work->pack_count; k++) {
+    const vsc_frame *frames = (const vsc_frame *)((const char *)work->packs + k * bytes);
+    const uint16_t(*node)[VSC_WIDTH] = (const uint16_t(*)[VSC_WIDTH])(frames + points);
+    const pack_moduli moduli = moduli_of(work, k, true);
+    vsc_wide3 x[VSC_MOST_CORNERS], f[VSC_MOST_CORNERS];
+    vsc_wide3 h[VSC_MOST_POINTS][3], speed[VSC_MOST_POINTS][3], g[VSC_MOST_POINTS][3];
+    for (int c = 0; c < corners; c++) x[c] = gather_corner(node[c], work->x);
+    derivatives(work->rule, corners, points, x, h);
+    if (damping) {
+      for (int c = 0; c < corners; c++) x[c] = gather_corner(node[c], work->w);
+      derivatives(work->rule, corners, points, x, speed);
+    }
+    const vsc_wide pressure = shared_pressure(frames, points, moduli.volume, h, g);
+    for (int q = 0; q < points; q++) {
+      const vsc_frame *frame = &frames[q];
+      vsc_wide3 rate[3], P[3];
+      if (damping) solid_axes(frame, speed[q], rate);
+      solid_stress(work, k, &moduli, g[q], rate, damping, pressure, P);
+      // f_i = -sum_k D_ki V sum_a P_a T_ak
+      for (int i = 0; i < 3; i++)
+        h[q][i] = vsc_wide_scale(-frame->V, vsc_wide_combine(frame->T[0][i], P[0], frame->T[1][i],
+                                                             P[1], frame->T[2][i], P[2]));
+    }
+    if (corners == 8)
+      hex_back(h, f);
+    else
+      plain_back(work->rule, corners, points, h, f);
+    for (int c = 0; c < corners; c++) scatter_corner(node[c], f[c], work->f);
+  }
+}
+
+#define SOLID_KERNELS(name, corners, points)                                                       \
+  static void force_##name(const vsc_patch_work *work) { solid_kernel(work, corners, points, 0); } \
+  static void force_damped_##name(const vsc_patch_work *work)                                      \
+  {                                                                                                \
+    solid_kernel(work, corners, points, 1);                                                        \
+  }
+SOLID_KERNELS(hexes, 8, 8)
+SOLID_KERNELS(wedges, 6, 6)
+SOLID_KERNELS(pyramids, 5, 8)
+
+#endif

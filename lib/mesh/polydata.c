@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/polydata.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "base/vec3.h"
+
+vsc_polydata *vsc_polydata_create(size_t points, size_t triangles, size_t segments)
+{
+  vsc_polydata *made;
+  if (points > UINT32_MAX || !VSC_NEW(made, 1)) return NULL;
+  made->point_count = points;
+  made->triangle_count = triangles;
+  made->segment_count = segments;
+  if (VSC_NEW(made->points, 3 * points) && VSC_NEW(made->triangles, 3 * triangles) &&
+      VSC_NEW(made->segments, 2 * segments))
+    return made;
+  vsc_polydata_free(made);
+  return NULL;
+}
+
+void vsc_polydata_free(vsc_polydata *polydata)
+{
+  if (polydata == NULL) return;
+  vsc_free(polydata->points);
+  vsc_free(polydata->triangles);
+  vsc_free(polydata->segments);
+  vsc_arrays_free(&polydata->point_data);
+  vsc_free(polydata);
+}
+
+static void widen(const vsc_polydata *polydata, const uint32_t *points, size_t count, double low[3],
+                  double high[3])
+{
+  for (size_t i = 0; i < count; i++)
+    for (int k = 0; k < 3; k++) {
+      low[k] = fmin(low[k], polydata->points[3 * (size_t)points[i] + (size_t)k]);
+      high[k] = fmax(high[k], polydata->points[3 * (size_t)points[i] + (size_t)k]);
+    }
+}
+
+void vsc_polydata_box(const vsc_polydata *polydata, double low[3], double high[3])
+{
+  for (int k = 0; k < 3; k++) low[k] = INFINITY, high[k] = -INFINITY;
+  widen(polydata, polydata->triangles, 3 * polydata->triangle_count, low, high);
+  widen(polydata, polydata->segments, 2 * polydata->segment_count, low, high);
+}
+
+// ---- how the triangles hang together
+
+typedef struct placed {
+  double x[3];
+  uint32_t point;
+} placed;
+
+static int by_place(const void *a, const void *b)
+{
+  const placed *p = a, *q = b;
+  for (int k = 0; k < 3; k++)
+    if (p->x[k] != q->x[k]) return p->x[k] < q->x[k] ? -1 : 1;
+  return (p->point > q->point) - (p->point < q->point);
+}
+
+vsc_status vsc_polydata_weld(const vsc_polydata *polydata, uint32_t *first, vsc_error *error)
+{
+  placed *order;
+  if (!VSC_NEW(order, polydata->point_count)) return vsc_fail_memory(error, "the points' order");
+  for (size_t i = 0; i < polydata->point_count; i++) {
+    memcpy(order[i].x, &polydata->points[3 * i], sizeof order[i].x);
+    order[i].point = (uint32_t)i;
+  }
+  qsort(order, polydata->point_count, sizeof *order, by_place);
+  for (size_t i = 0; i < polydata->point_count; i++) {
+    const double *x = order[i].x, *former = order[i > 0 ? i - 1 : 0].x;
+    const bool same = i > 0 && x[0] == former[0] && x[1] == former[1] && x[2] == former[2];
+    first[order[i].point] = same ? first[order[i - 1].point] : order[i].point;
+  }
+  vsc_free(order);
+  return VSC_OK;
+}
+
+// An edge from its lesser to its greater point.
+typedef struct edge {
+  uint32_t low, high;
+  int forward;  // 1: its triangle passes it from low to high
+} edge;
+
+static int by_points(const void *a, const void *b)
+{
+  const edge *p = a, *q = b;
+  if (p->low != q->low) return p->low < q->low ? -1 : 1;
+  return (p->high > q->high) - (p->high < q->high);
+}
+
+static void list_edges(const vsc_polydata *polydata, const uint32_t *first, edge *edges)
+{
+  for (size_t t = 0; t < polydata->triangle_count; t++)
+    for (size_t i = 0; i < 3; i++) {
+      const uint32_t a = first[polydata->triangles[3 * t + i]];
+      const uint32_t b = first[polydata->triangles[3 * t + (i + 1) % 3]];
+      edges[3 * t + i] = (edge){a < b ? a : b, a < b ? b : a, a < b};
+    }
+  qsort(edges, 3 * polydata->triangle_count, sizeof *edges, by_points);
+}
+
+static void count_edges(const edge *edges, size_t count, vsc_closure *closure)
+{
+  for (size_t e = 0, run; e < count; e += run) {
+    for (run = 1; e + run < count && by_points(&edges[e], &edges[e + run]) == 0;) run++;
+    if (edges[e].low == edges[e].high) continue;  // of a triangle that is a line
+    if (run != 2)
+      closure->open_edges++;
+    else if (edges[e].forward == edges[e + 1].forward)
+      closure->turned_edges++;
+  }
+}
+
+static double enclosed(const vsc_polydata *polydata)
+{
+  double low[3], high[3], middle[3], volume = 0;
+  vsc_polydata_box(polydata, low, high);
+  for (int k = 0; k < 3; k++) middle[k] = (low[k] + high[k]) / 2;
+  for (size_t t = 0; t < polydata->triangle_count; t++) {
+    const uint32_t *corner = &polydata->triangles[3 * t];
+    volume += vsc_tet_volume(middle, &polydata->points[3 * (size_t)corner[0]],
+                             &polydata->points[3 * (size_t)corner[1]],
+                             &polydata->points[3 * (size_t)corner[2]]);
+  }
+  return volume;
+}
+
+vsc_status vsc_polydata_closure(const vsc_polydata *polydata, vsc_closure *closure,
+                                vsc_error *error)
+{
+  uint32_t *first;
+  edge *edges = NULL;
+  vsc_status status = VSC_OK;
+  *closure = (vsc_closure){0};
+  if (!VSC_NEW(first, polydata->point_count) || !VSC_NEW(edges, 3 * polydata->triangle_count))
+    status = vsc_fail_memory(error, "the edges of a surface");
+  if (status == VSC_OK) status = vsc_polydata_weld(polydata, first, error);
+  if (status == VSC_OK) {
+    list_edges(polydata, first, edges);
+    count_edges(edges, 3 * polydata->triangle_count, closure);
+    closure->volume = enclosed(polydata);
+  }
+  vsc_free(first);
+  vsc_free(edges);
+  return status;
+}

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The packs of a patch, filled from its parts.
+#include <string.h>
+
+#include "base/vec3.h"
+#include "model/paper.h"
+#include "model/patches.h"
+
+// What one part is filled from.
+typedef struct filling {
+  const vsc_mesh *mesh;
+  const vsc_axes *axes;
+  const vsc_patch *patch;
+  vsc_model *model;
+  const uint32_t *local;
+} filling;
+
+static void *at(const filling *fill, size_t offset)
+{
+  return fill->model->store + offset;
+}
+
+// The pack's nodes, [corner][lane], which are ours to write here.
+static uint16_t (*nodes_of(const filling *fill, size_t k))[VSC_WIDTH]
+{
+  return (uint16_t(*)[VSC_WIDTH])(uintptr_t)vsc_pack_nodes(fill->model, fill->patch, k);
+}
+
+static vsc_status fill_paper_data(const filling *fill, size_t element, const double (*x)[3],
+                                  const double *frame, size_t index, int lane, vsc_error *error)
+{
+  double r[3], w[3][8], radius[8];
+  if (fill->patch->family == VSC_TETS) {
+    vsc_chords *chords = (vsc_chords *)at(fill, fill->patch->law_data) + index;
+    vsc_paper_tet(x, frame, r, radius);
+    for (int a = 0; a < 3; a++) chords->r[a][lane] = r[a];
+    chords->radius[lane] = radius[0];
+    return VSC_OK;
+  }
+  vsc_hex_axes *axes = (vsc_hex_axes *)at(fill, fill->patch->law_data) + index;
+  if (!vsc_paper_hex(x, frame, w, r, radius))
+    return vsc_fail(error, VSC_INPUT,
+                    "element %u: an axis of law: paper meets no two of its faces; mend this "
+                    "hexahedron or use law: springs",
+                    fill->mesh->element_source[element]);
+  for (int a = 0; a < 3; a++) {
+    axes->r[a][lane] = r[a];
+    for (int i = 0; i < 8; i++) axes->w[a][i][lane] = w[a][i];
+  }
+  for (int i = 0; i < 8; i++) axes->radius[i][lane] = radius[i];
+  axes->volume[lane] = vsc_mesh_element_volume(fill->mesh, element);
+  return VSC_OK;
+}
+
+static vsc_status fill_cell(const filling *fill, size_t element, size_t index, int lane,
+                            vsc_error *error)
+{
+  static const double global_axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  vsc_model *model = fill->model;
+  const vsc_patch *patch = fill->patch;
+  const vsc_cell_rule *rule = &model->rules[patch->family];
+  const uint32_t *corner = vsc_mesh_corners(fill->mesh, element);
+  const double *frame = fill->axes ? fill->axes->frames + 9 * element : global_axes;
+  const size_t k = patch->first_pack + index, slot = VSC_WIDTH * k + (size_t)lane;
+  vsc_frame *frames = (vsc_frame *)(uintptr_t)vsc_pack_frames(model, patch, k);
+  double x[VSC_MOST_CORNERS][3];
+  const int corners = vsc_family_corners(patch->family);
+  for (int c = 0; c < corners; c++) {
+    memcpy(x[c], fill->mesh->nodes + 3 * (size_t)corner[c], sizeof x[c]);
+    nodes_of(fill, k)[c][lane] = (uint16_t)fill->local[corner[c]];
+  }
+  for (int q = 0; q < rule->points; q++) {
+    double h[3][3] = {{0}}, T[3][3];
+    for (int i = 0; i < 3; i++)
+      for (int c = 0; c < corners; c++)
+        for (int d = 0; d < 3; d++) h[i][d] += rule->D[q][i][c] * x[c][d];
+    frames[q].V[lane] = rule->weight[q] * vsc_stencil_frame(h, frame, T);
+    model->total_volume += frames[q].V[lane];
+    for (int a = 0; a < 3; a++)
+      for (int i = 0; i < 3; i++) frames[q].T[a][i][lane] = T[a][i];
+  }
+  model->mesh_element[slot] = (uint32_t)element;
+  model->known[slot] = fill->axes ? fill->axes->known[element] : 0;
+  if (patch->law_data == 0) return VSC_OK;
+  return fill_paper_data(fill, element, x, frame, index, lane, error);
+}
+
+static void fill_spring(const filling *fill, const uint32_t *node, size_t index, int lane)
+{
+  vsc_edge_pack *pack = (vsc_edge_pack *)at(fill, fill->patch->packs) + index;
+  double way[3];
+  const double *x = fill->mesh->nodes;
+  vsc_subtract(x + 3 * (size_t)node[0], x + 3 * (size_t)node[1], way);
+  pack->length[lane] = vsc_norm(way);
+  for (int i = 0; i < 2; i++) pack->node[i][lane] = (uint16_t)fill->local[node[i]];
+}
+
+vsc_status vsc_patch_fill(const vsc_mesh *mesh, const vsc_axes *axes, const vsc_parts *parts,
+                          const uint32_t *order, size_t count, const uint32_t *local,
+                          const vsc_patch *patch, vsc_model *model, vsc_error *error)
+{
+  const filling fill = {mesh, axes, patch, model, local};
+  for (size_t k = 0; k < count; k++) {
+    const size_t part = order[k], index = k / VSC_WIDTH;
+    const int lane = (int)(k % VSC_WIDTH);
+    if (vsc_patch_is_solid(patch)) {
+      const vsc_status status = fill_cell(&fill, parts->source[part], index, lane, error);
+      if (status != VSC_OK) return status;
+    } else {
+      fill_spring(&fill, parts->nodes + parts->start[part], index, lane);
+    }
+  }
+  return VSC_OK;
+}

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/parts.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+
+// Families of a material: the cells and the springs on their edges.
+enum { OF_MATERIAL = VSC_CELLS + 1 };
+
+// A spring between two nodes, and the element that brought it.
+typedef struct spring {
+  uint32_t node[2], element;
+} spring;
+
+typedef struct spring_list {
+  size_t count;
+  spring *items;
+} spring_list;
+
+static uint32_t group_of(uint32_t material, bool mixed, uint32_t family)
+{
+  return (2 * material + mixed) * OF_MATERIAL + family;
+}
+
+uint32_t vsc_parts_family(const vsc_parts *parts, uint32_t group)
+{
+  (void)parts;
+  return group % OF_MATERIAL;
+}
+
+uint32_t vsc_parts_material(const vsc_parts *parts, uint32_t group)
+{
+  (void)parts;
+  return group / OF_MATERIAL / 2;
+}
+
+bool vsc_parts_mixed(const vsc_parts *parts, uint32_t group)
+{
+  (void)parts;
+  return group / OF_MATERIAL % 2 == 1;
+}
+
+static vsc_status check_laws(const vsc_mesh *mesh, const uint32_t *material_of,
+                             const vsc_model *model, vsc_error *error)
+{
+  for (size_t e = 0; e < mesh->element_count; e++) {
+    const vsc_material *material = &model->materials[material_of[e]];
+    const bool known = mesh->kinds[e] == VSC_TET || mesh->kinds[e] == VSC_HEX;
+    if (material->law == VSC_LAW_PAPER && !known)
+      return vsc_fail(error, VSC_INPUT,
+                      "materials: element %u, of material %s, is a %s; law: paper knows tetrahedra "
+                      "and hexahedra only: use law: springs",
+                      mesh->element_source[e], material->name, vsc_mesh_kind(mesh, e)->name);
+    if (material->law == VSC_LAW_PAPER && mesh->kinds[e] == VSC_HEX && material->paper.volume == 0)
+      return vsc_fail(error, VSC_INPUT,
+                      "materials: %s has law: paper on hexahedra (element %u) without volume "
+                      "springs, which leaves twelve ways to deform without force: give "
+                      "paper.volume, or use law: springs",
+                      material->name, mesh->element_source[e]);
+  }
+  return VSC_OK;
+}
+
+// ---- classical springs
+
+static void add_spring(spring_list *list, uint32_t a, uint32_t b, size_t element)
+{
+  list->items[list->count++] =
+      (spring){.node = {a < b ? a : b, a < b ? b : a}, .element = (uint32_t)element};
+}
+
+static int compare_springs(const void *a, const void *b)
+{
+  const spring *x = a, *y = b;
+  for (int i = 0; i < 2; i++)
+    if (x->node[i] != y->node[i]) return x->node[i] < y->node[i] ? -1 : 1;
+  return (x->element > y->element) - (x->element < y->element);
+}
+
+// One spring on each edge, of the first element that has it, and on each main diagonal of a
+// hexahedron.
+static vsc_status list_springs(const vsc_mesh *mesh, const uint32_t *material_of,
+                               const vsc_model *model, spring_list *list, vsc_error *error)
+{
+  static const int diagonals[4][2] = {{0, 6}, {1, 7}, {2, 4}, {3, 5}};
+  size_t most = 0;
+  for (size_t e = 0; e < mesh->element_count; e++)
+    if (model->materials[material_of[e]].law == VSC_LAW_CLASSICAL)
+      most += (size_t)vsc_mesh_kind(mesh, e)->edge_count + (mesh->kinds[e] == VSC_HEX ? 4 : 0);
+  if (!VSC_NEW(list->items, most)) return vsc_fail_memory(error, "classical springs");
+  for (size_t e = 0; e < mesh->element_count; e++) {
+    if (model->materials[material_of[e]].law != VSC_LAW_CLASSICAL) continue;
+    const vsc_cell_kind *kind = vsc_mesh_kind(mesh, e);
+    const uint32_t *corner = vsc_mesh_corners(mesh, e);
+    for (int i = 0; i < kind->edge_count; i++)
+      add_spring(list, corner[kind->edges[i][0]], corner[kind->edges[i][1]], e);
+    for (int i = 0; i < 4 && mesh->kinds[e] == VSC_HEX; i++)
+      add_spring(list, corner[diagonals[i][0]], corner[diagonals[i][1]], e);
+  }
+  qsort(list->items, list->count, sizeof *list->items, compare_springs);
+  size_t kept = 0;
+  for (size_t k = 0; k < list->count; k++)
+    if (kept == 0 || memcmp(list->items[kept - 1].node, list->items[k].node, 8) != 0)
+      list->items[kept++] = list->items[k];
+  list->count = kept;
+  return VSC_OK;
+}
+
+// ---- the list
+
+static void add_part(vsc_parts *parts, uint32_t group, uint32_t source, const uint32_t *nodes,
+                     size_t count)
+{
+  const size_t k = parts->count++;
+  parts->group[k] = group;
+  parts->source[k] = source;
+  memcpy(parts->nodes + parts->start[k], nodes, count * sizeof *nodes);
+  parts->start[k + 1] = parts->start[k] + count;
+}
+
+vsc_status vsc_parts_list(const vsc_mesh *mesh, const uint32_t *material_of, const uint8_t *mixed,
+                          const vsc_model *model, vsc_parts *parts, vsc_error *error)
+{
+  spring_list springs = {0};
+  *parts = (vsc_parts){.material_count = model->material_count};
+  vsc_status status = check_laws(mesh, material_of, model, error);
+  if (status == VSC_OK) status = list_springs(mesh, material_of, model, &springs, error);
+  const size_t elements = mesh->element_count, count = elements + springs.count;
+  const size_t nodes = mesh->start[elements] + 2 * springs.count;
+  if (status == VSC_OK &&
+      (!VSC_NEW(parts->group, count) || !VSC_NEW(parts->source, count) ||
+       !VSC_NEW(parts->start, count + 1) || !VSC_NEW(parts->nodes, nodes)))
+    status = vsc_fail_memory(error, "the list of elements");
+  if (status == VSC_OK) {
+    for (size_t e = 0; e < elements; e++)
+      add_part(parts, group_of(material_of[e], mixed[e] != 0, mesh->kinds[e]), (uint32_t)e,
+               vsc_mesh_corners(mesh, e), (size_t)vsc_mesh_kind(mesh, e)->corners);
+    for (size_t s = 0; s < springs.count; s++)
+      add_part(parts, group_of(material_of[springs.items[s].element], false, VSC_SPRINGS_ON_EDGES),
+               VSC_NO_ELEMENT, springs.items[s].node, 2);
+  }
+  vsc_free(springs.items);
+  return status;
+}
+
+void vsc_parts_free(vsc_parts *parts)
+{
+  vsc_free(parts->group);
+  vsc_free(parts->source);
+  vsc_free(parts->start);
+  vsc_free(parts->nodes);
+  *parts = (vsc_parts){0};
+}

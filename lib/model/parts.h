@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Everything of a scene that pulls at nodes, as one list: cells, classical springs on their edges,
+// triangles and hinges of membranes. Internal to the model room.
+#ifndef VSC_MODEL_PARTS_H
+#define VSC_MODEL_PARTS_H
+
+#include "mesh/mesh.h"
+#include "model/model.h"
+
+// A group is what may share a patch: one family, one material, with or without inclusions.
+typedef struct vsc_parts {
+  size_t count;
+  uint32_t *group;   // count
+  uint32_t *source;  // count: number of the element of the mesh; of another family: of no meaning
+  size_t *start;     // count + 1: part k has the nodes[start[k] .. start[k + 1] - 1]
+  uint32_t *nodes;   // of the mesh
+  size_t material_count;
+} vsc_parts;
+
+// Lists the parts of `mesh`, whose element e has the material material_of[e]; mixed[e] is 1 where it
+// holds inclusions. VSC_INPUT for a law that does not know the kind of an element. The content of
+// *parts is owned by the caller, to be released also after a failure.
+vsc_status vsc_parts_list(const vsc_mesh *mesh, const uint32_t *material_of, const uint8_t *mixed,
+                          const vsc_model *model, vsc_parts *parts, vsc_error *error);
+
+void vsc_parts_free(vsc_parts *parts);  // the content
+
+// What a group stands for.
+uint32_t vsc_parts_family(const vsc_parts *parts, uint32_t group);
+uint32_t vsc_parts_material(const vsc_parts *parts, uint32_t group);
+bool vsc_parts_mixed(const vsc_parts *parts, uint32_t group);
+
+#endif

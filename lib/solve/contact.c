@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/contact.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/vec3.h"
+
+enum { MOST_ROUNDS = 8 };
+// Part of an element's size below which a depth is rounding.
+static const double ROUNDING = 1e-13;
+
+// An obstacle at the end of a step.
+typedef struct pusher {
+  const vsc_obstacle *obstacle;
+  vsc_contact_sums *sums;
+  double point[3];
+  double speed[3];  // of the obstacle in this step, mm/ms
+} pusher;
+
+// Removes held directions; returns what is left of the length.
+static double free_part(const double *inverse_mass, const double normal[3], double way[3])
+{
+  for (int i = 0; i < 3; i++) way[i] = inverse_mass[i] > 0 ? normal[i] : 0;
+  return vsc_normalize(way);
+}
+
+// Shortens the velocity along the surface by at most `most`; `way` is the free part of the normal.
+// Returns true when nothing of it is left.
+static bool rub(const vsc_model *model, uint32_t node, const pusher *p, const double way[3],
+                double most, double v[3])
+{
+  double slip[3];
+  for (int i = 0; i < 3; i++)
+    slip[i] = model->inverse_mass[4 * (size_t)node + i] > 0 ? v[i] - p->speed[i] : 0;
+  const double normal = vsc_dot(slip, way);
+  for (int i = 0; i < 3; i++) slip[i] -= normal * way[i];
+  const double size = vsc_norm(slip);
+  if (!(size > 0)) return true;
+  const double part = fmin(most / size, 1);
+  for (int i = 0; i < 3; i++) v[i] -= part * slip[i];
+  return part == 1;
+}
+
+// Velocity into the obstacle, as it would be without the reaction still to come, is taken away; returns
+// how much that was.
+static double stop(const pusher *p, const double way[3], double v[3])
+{
+  double slip[3];
+  vsc_subtract(v, p->speed, slip);
+  const double inward = -vsc_dot(slip, way);
+  if (!(inward > 0)) return 0;
+  for (int i = 0; i < 3; i++) v[i] += inward * way[i];
+  return inward;
+}
+
+// J = m (v' - v): its sum, the obstacle's work J . speed, and what is lost, J . speed - J . (v_0 + v')/2
+// with the velocity v_0 = v - kick before the step's own forces.
+static void count_impulse(const vsc_model *model, uint32_t node, const double before[3],
+                          const double after[3], const double kick[3], const pusher *p)
+{
+  double work = 0, pushed = 0;
+  for (int i = 0; i < 3; i++) {
+    const double impulse = model->mass[node] * (after[i] - before[i]);
+    p->sums->impulse[i] += impulse;
+    pushed += impulse * p->speed[i];
+    work += impulse * 0.5 * (before[i] - kick[i] + after[i]);
+  }
+  p->sums->work += pushed;
+  p->sums->lost += pushed - work;
+}
+
+static bool put_back(const vsc_model *model, vsc_state *state, uint32_t node, double dt,
+                     const pusher *p)
+{
+  double *x = state->x + 4 * (size_t)node, *v = state->v + 4 * (size_t)node;
+  double normal[3], way[3], before[3];
+  const double gap = vsc_obstacle_gap(p->obstacle, p->point, x, normal);
+  if (gap >= -ROUNDING * model->element_size) return false;
+  const double free = free_part(model->inverse_mass + 4 * (size_t)node, normal, way);
+  if (free < 1e-6) return false;  // held against the obstacle
+  memcpy(before, v, sizeof before);
+  // along what is free of the normal, far enough that the gap closes
+  const double depth = -gap / vsc_dot(way, normal);
+  for (int i = 0; i < 3; i++) {
+    x[i] += depth * way[i];
+    v[i] += depth / dt * way[i];
+  }
+  bool stuck = false;
+  if (p->obstacle->friction > 0) {
+    double rubbed[3];
+    memcpy(rubbed, v, sizeof rubbed);
+    stuck = rub(model, node, p, way, p->obstacle->friction * depth / dt, rubbed);
+    for (int i = 0; i < 3; i++) {
+      x[i] += dt * (rubbed[i] - v[i]);
+      v[i] = rubbed[i];
+    }
+  }
+  if (model->terms.damping) {
+    // damping sees the velocity at the end of the step, where the obstacle still stops the node
+    double *predicted = state->scratch.predicted + 4 * (size_t)node;
+    for (int i = 0; i < 3; i++) predicted[i] += v[i] - before[i];
+    stop(p, way, predicted);
+    if (stuck) rub(model, node, p, way, INFINITY, predicted);
+  }
+  double kick[3];
+  for (int i = 0; i < 3; i++) kick[i] = dt * state->a[4 * (size_t)node + i];
+  count_impulse(model, node, before, v, kick, p);
+  state->contact_count[node]++;
+  memcpy(state->contact_normal + 4 * (size_t)node, way, sizeof way);
+  return true;
+}
+
+static pusher pusher_of(const vsc_model *model, vsc_state *state, size_t o, double dt)
+{
+  pusher p = {.obstacle = &model->obstacles[o], .sums = &state->contact[o]};
+  double former[3];
+  vsc_obstacle_place(p.obstacle, state->time, p.point);
+  vsc_obstacle_place(p.obstacle, state->time - dt, former);
+  for (int i = 0; i < 3; i++) p.speed[i] = (p.point[i] - former[i]) / dt;
+  return p;
+}
+
+size_t vsc_contact_resolve(const vsc_model *model, vsc_state *state, double dt, bool fresh)
+{
+  size_t all = 0;
+  if (fresh) memset(state->contact_count, 0, model->node_count * sizeof *state->contact_count);
+  for (int round = 0; round < MOST_ROUNDS; round++) {
+    size_t moved = 0;
+    for (size_t o = 0; o < model->obstacle_count; o++) {
+      const pusher p = pusher_of(model, state, o, dt);
+      for (size_t k = 0; k < p.obstacle->node_count; k++)
+        moved += put_back(model, state, p.obstacle->nodes[k], dt, &p);
+    }
+    all += moved;
+    if (moved == 0) break;
+  }
+  return all;
+}
+
+void vsc_contact_settle(const vsc_model *model, vsc_state *state, double dt)
+{
+  static const double no_kick[3] = {0};
+  for (size_t o = 0; o < model->obstacle_count; o++) {
+    const pusher p = pusher_of(model, state, o, dt);
+    for (size_t k = 0; k < p.obstacle->node_count; k++) {
+      const uint32_t node = p.obstacle->nodes[k];
+      double *v = state->v + 4 * (size_t)node, normal[3], way[3], before[3];
+      if (state->contact_count[node] == 0) continue;
+      const double gap = vsc_obstacle_gap(p.obstacle, p.point, state->x + 4 * (size_t)node, normal);
+      if (gap > ROUNDING * 10 * model->element_size ||
+          free_part(model->inverse_mass + 4 * (size_t)node, normal, way) < 1e-6)
+        continue;
+      memcpy(before, v, sizeof before);
+      const double inward = stop(&p, way, v);
+      if (p.obstacle->friction > 0) rub(model, node, &p, way, p.obstacle->friction * inward, v);
+      count_impulse(model, node, before, v, no_kick, &p);
+    }
+  }
+}

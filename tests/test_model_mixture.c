@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Elements with inclusions: moduli mixed by volume.
+#include "kinds_body.h"
+
+// Materials `soft` and `stiff` on one mesh: element array `part` holds the fraction of stiff in soft.
+static void open_mixed(random_body *body, vsc_mesh *mesh, vsc_inclusion_def *inclusion,
+                       uint64_t seed)
+{
+  *body = (random_body){.mesh = mesh, .axes = random_axes(mesh->element_count, seed)};
+  for (int m = 0; m < 2; m++) {
+    body->materials[m] = springs_material(NULL, NULL);
+    vsc_copy_name(body->materials[m].name, m == 0 ? "soft" : "stiff");
+  }
+  for (int a = 0; a < 3; a++) {
+    body->materials[1].axial[a] *= 20 + a;
+    body->materials[1].angular[a] *= 30 + a;
+    body->materials[1].damping[a] *= 4 + a;
+  }
+  body->materials[1].volume_modulus *= 5;
+  *inclusion = (vsc_inclusion_def){.material = "stiff", .fraction_array = "part"};
+  body->materials[0].inclusions = inclusion;
+  body->materials[0].inclusion_count = 1;
+  body->definition = vsc_default_definition();
+  body->definition.end_time = 1;
+  body->definition.volume = VSC_VOLUME_ELEMENT;
+  body->definition.material_count = 2;
+  body->definition.materials = body->materials;
+}
+
+static double *force_with(vsc_mesh *mesh, double fraction, bool only_half)
+{
+  random_body body;
+  vsc_inclusion_def inclusion;
+  open_mixed(&body, mesh, &inclusion, 21);
+  vsc_array *part = (vsc_array *)vsc_arrays_find(&mesh->element_data, "part");
+  for (size_t e = 0; e < mesh->element_count; e++)
+    part->values[e] = only_half && e % 2 == 0 ? 0 : fraction;
+  body_build(&body);
+  const size_t count = 3 * mesh->node_count;
+  double *x = deformed(mesh, 0.1, 0.05, 22), *w = random_array(count, 1, 23), *f = numbers(count);
+  body_force(&body, x, w, 0, f);
+  vsc_free(x);
+  vsc_free(w);
+  body.mesh = NULL;
+  body_close(&body);
+  return f;
+}
+
+// Forces are linear in the moduli, so those of a mixture lie between.
+static void forces_are_mixed_by_volume(void **state)
+{
+  (void)state;
+  for (int kind = 0; kind < 2; kind++) {
+    vsc_mesh *mesh = mesh_of(kind == 0 ? ALL_TETS : ALL_KINDS, 3, 20);
+    vsc_arrays_add(&mesh->element_data, "part", 1, mesh->element_count);
+    double *soft = force_with(mesh, 0, false), *stiff = force_with(mesh, 1, false);
+    double *mixed = force_with(mesh, 0.3, false);
+    const size_t count = 3 * mesh->node_count;
+    const double most = largest_of(stiff, count);
+    assert_true(largest_of(stiff, count) > 5 * largest_of(soft, count));
+    for (size_t i = 0; i < count; i++)
+      assert_close(mixed[i], 0.7 * soft[i] + 0.3 * stiff[i], 0, 1e-14 * most);
+    // what only some elements have, only they show: forces of the halves add up to the whole
+    double *half = force_with(mesh, 0.3, true);
+    assert_true(memcmp(half, mixed, count * sizeof *half) != 0);
+    vsc_free(soft);
+    vsc_free(stiff);
+    vsc_free(mixed);
+    vsc_free(half);
+    vsc_mesh_free(mesh);
+  }
+}
+
+// An inclusion that is all of its elements is the other material.
+static void an_inclusion_of_everything_is_the_other_material(void **state)
+{
+  (void)state;
+  vsc_mesh *mesh = random_block(3, 24);
+  vsc_arrays_add(&mesh->element_data, "part", 1, mesh->element_count);
+  double *mixed = force_with(mesh, 1, false);
+  random_body body;
+  vsc_inclusion_def inclusion;
+  open_mixed(&body, mesh, &inclusion, 21);
+  body.materials[0] = body.materials[1];
+  body.definition.material_count = 1;
+  body_build(&body);
+  const size_t count = 3 * mesh->node_count;
+  double *x = deformed(mesh, 0.1, 0.05, 22), *w = random_array(count, 1, 23), *f = numbers(count);
+  body_force(&body, x, w, 0, f);
+  for (size_t i = 0; i < count; i++) assert_close(mixed[i], f[i], 0, 1e-14 * largest_of(f, count));
+  vsc_free(x);
+  vsc_free(w);
+  vsc_free(f);
+  vsc_free(mixed);
+  body_close(&body);
+}
+
+static void expect_refusal(random_body *body, const char *text)
+{
+  vsc_error error;
+  vsc_model *model;
+  assert_int_equal(vsc_model_build(body->mesh, body->axes, &body->definition, &model, &error),
+                   VSC_INPUT);
+  if (strstr(error.text, text) == NULL) fail_msg("\"%s\" lacks \"%s\"", error.text, text);
+}
+
+static void bad_inclusions_are_refused(void **state)
+{
+  (void)state;
+  random_body body;
+  vsc_inclusion_def inclusion;
+  vsc_mesh *mesh = random_block(2, 25);
+  open_mixed(&body, mesh, &inclusion, 26);
+  expect_refusal(&body, "part");
+  vsc_array *part = vsc_arrays_add(&mesh->element_data, "part", 1, mesh->element_count);
+  part->values[3] = 1.5;
+  expect_refusal(&body, "[0, 1]");
+  part->values[3] = -0.1;
+  expect_refusal(&body, "element 3");
+  part->values[3] = NAN;
+  expect_refusal(&body, "element 3");
+  part->values[3] = 0.5;
+  body.materials[1].region_count = 1;
+  vsc_copy_name(inclusion.material, "stuff");
+  expect_refusal(&body, "no other material is called 'stuff'");
+  body.materials[1].region_count = 0;
+  vsc_copy_name(inclusion.material, "stiff");
+  body.materials[1].active.kind = VSC_ACTIVE_TENSION;
+  expect_refusal(&body, "passive");
+  body_close(&body);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(forces_are_mixed_by_volume),
+      cmocka_unit_test(an_inclusion_of_everything_is_the_other_material),
+      cmocka_unit_test(bad_inclusions_are_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
