@@ -33,7 +33,7 @@ extern const vsc_cell_kind vsc_cells[VSC_CELLS];
 // different kinds.
 typedef struct vsc_cell_rule {
   int points;
-  double weight[VSC_MOST_POINTS];  // sums to the volume of the reference element
+  double weight[VSC_MOST_POINTS];  // sums to the volume that xi runs through
   double N[VSC_MOST_POINTS][VSC_MOST_CORNERS];      // shape functions
   double D[VSC_MOST_POINTS][3][VSC_MOST_CORNERS];   // d N_i / d xi_k
 } vsc_cell_rule;
