@@ -90,20 +90,19 @@ static void overlapping_tets_are_counted(void **state)
   vsc_mesh_free(mesh);
 }
 
-// The nodes of a face in ascending order, of three the last one twice.
+static int compare_nodes(const void *a, const void *b)
+{
+  const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+  return (x > y) - (x < y);
+}
+
+// The nodes of a face in ascending order; of three the last one twice.
 static void face_nodes(const vsc_mesh *mesh, size_t element, int face, uint32_t nodes[4])
 {
-  const int *at = vsc_mesh_kind(mesh, element)->faces[face];
-  for (int i = 0; i < 4; i++) {
-    uint32_t node = at[i] < 0 ? nodes[2] : vsc_mesh_corners(mesh, element)[at[i]];
-    for (int k = 0; k < i; k++)
-      if (nodes[k] > node) {
-        const uint32_t larger = nodes[k];
-        nodes[k] = node;
-        node = larger;
-      }
-    nodes[i] = node;
-  }
+  const int *at = vsc_mesh_kind(mesh, element)->faces[face], corners = at[3] < 0 ? 3 : 4;
+  for (int i = 0; i < corners; i++) nodes[i] = vsc_mesh_corners(mesh, element)[at[i]];
+  qsort(nodes, (size_t)corners, sizeof *nodes, compare_nodes);
+  if (corners == 3) nodes[3] = nodes[2];
 }
 
 // All faces of all kinds against all others; every element at each of its nodes.
