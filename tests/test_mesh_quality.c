@@ -128,6 +128,36 @@ static void bent_elements_by_hand(void **state)
   assert_close(quality.shape, 0.1 / sqrt(0.51) * sqrt(2), 1e-13, 0);
 }
 
+// An element whose corners are numbered from another one on is the same element.
+static void numbering_does_not_count(void **state)
+{
+  (void)state;
+  static const int next[VSC_CELLS][8] = {[VSC_HEX] = {1, 2, 3, 0, 5, 6, 7, 4},
+                                         [VSC_WEDGE] = {1, 2, 0, 4, 5, 3},
+                                         [VSC_PYRAMID] = {1, 2, 3, 0, 4}};
+  static const double at[VSC_CELLS][8][3] = {
+      [VSC_HEX] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                   {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
+      [VSC_WEDGE] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
+      [VSC_PYRAMID] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 2}}};
+  uint64_t seed = 6;
+  for (int round = 0; round < 200; round++) {
+    const vsc_cell kind = (vsc_cell)(1 + round % 3);
+    double shaken[8][3], renumbered[8][3];
+    for (int i = 0; i < 8; i++)
+      for (int k = 0; k < 3; k++)
+        shaken[i][k] = at[kind][i][k] + random_between(&seed, -0.2, 0.2);
+    for (int i = 0; i < 8; i++) memcpy(renumbered[i], shaken[next[kind][i]], sizeof renumbered[i]);
+    const vsc_element_quality one = quality_of(kind, (const double(*)[3])shaken);
+    const vsc_element_quality other = quality_of(kind, (const double(*)[3])renumbered);
+    assert_close(other.shape, one.shape, 0, 1e-14);
+    assert_close(other.min_dihedral, one.min_dihedral, 0, 1e-12);
+    assert_close(other.max_dihedral, one.max_dihedral, 0, 1e-12);
+    assert_close(other.edge_ratio, one.edge_ratio, 1e-15, 0);
+    assert_close(other.volume, one.volume, 1e-14, 0);
+  }
+}
+
 // Each kind counts alike in the summary; turned and enlarged, all shapes are the same.
 static void a_hybrid_mesh_is_summarised(void **state)
 {
@@ -238,6 +268,7 @@ int main(void)
     cmocka_unit_test(a_flat_tet_is_bad),
     cmocka_unit_test(elements_with_equal_edges_are_perfect),
     cmocka_unit_test(bent_elements_by_hand),
+    cmocka_unit_test(numbering_does_not_count),
     cmocka_unit_test(a_hybrid_mesh_is_summarised),
     cmocka_unit_test(the_worst_are_found_in_order),
     cmocka_unit_test(edges_and_few_tets),
