@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/split.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+// The face as triangles that all hold its smallest node; returns how many.
+static int cut_face(const uint32_t *corners, const int face[4], uint32_t triangles[2][3])
+{
+  const int sides = face[3] < 0 ? 3 : 4;
+  int least = 0;
+  for (int i = 1; i < sides; i++)
+    if (corners[face[i]] < corners[face[least]]) least = i;
+  for (int t = 0; t < sides - 2; t++)
+    for (int i = 0; i < 3; i++)
+      triangles[t][i] = corners[face[(least + (i == 0 ? 0 : t + i)) % sides]];
+  return sides - 2;
+}
+
+static bool face_holds(const int face[4], int corner)
+{
+  for (int i = 0; i < 4; i++)
+    if (face[i] == corner) return true;
+  return false;
+}
+
+int vsc_mesh_split(const vsc_mesh *mesh, size_t element, uint32_t tets[VSC_MOST_TETS][4])
+{
+  const uint32_t *corners = vsc_mesh_corners(mesh, element);
+  if (mesh->kinds[element] == VSC_TET) {
+    memcpy(tets[0], corners, 4 * sizeof *corners);
+    return 1;
+  }
+  const vsc_cell_kind *kind = vsc_mesh_kind(mesh, element);
+  int least = 0, count = 0;
+  for (int c = 1; c < kind->corners; c++)
+    if (corners[c] < corners[least]) least = c;
+  for (int f = 0; f < kind->face_count; f++) {
+    uint32_t triangles[2][3];
+    if (face_holds(kind->faces[f], least)) continue;
+    const int pieces = cut_face(corners, kind->faces[f], triangles);
+    for (int t = 0; t < pieces; t++, count++) {
+      tets[count][0] = corners[least];
+      memcpy(tets[count] + 1, triangles[t], sizeof triangles[t]);
+    }
+  }
+  return count;
+}

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Elements of any kind as tets, where linear functions are wanted on them.
+#ifndef VSC_MESH_SPLIT_H
+#define VSC_MESH_SPLIT_H
+
+#include "mesh/mesh.h"
+
+enum { VSC_MOST_TETS = 6 };
+
+// The tets of element `element`, right-handed: itself when it is one; else its corner with the
+// smallest number joined to the triangles of the faces that do not hold that corner, faces of four
+// corners being cut from their corner with the smallest number (a pyramid 2, a wedge 3, a
+// hexahedron 6). Neighbours cut a common face alike, so that the tets of a mesh fit together.
+// Returns how many there are; corners of elements with strongly bent faces may make tets of
+// negative volume.
+int vsc_mesh_split(const vsc_mesh *mesh, size_t element, uint32_t tets[VSC_MOST_TETS][4]);
+
+#endif
