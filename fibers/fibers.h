@@ -6,7 +6,7 @@
 #include "fibers/sample.h"
 #include "mesh/select.h"
 
-// Gives every tet of `mesh` its axes. `surfaces` (surface_count) are the named surfaces, of which
+// Gives every element of `mesh` its axes. `surfaces` (surface_count) are the named surfaces, of which
 // HELIX uses two. Reads the voxel map when there is one. On success *axes is owned by the caller
 // and `report` (not NULL) is filled. Sheet and normal: by the rule of vsc_axes_complete, with the
 // sheet hint that the source gives (ARRAYS: the sheet array; HELIX: the transmural axis; see

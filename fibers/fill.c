@@ -13,11 +13,12 @@ static void add_square(const double v[3], double sum[6])
   for (int c = 0; c < 6; c++) sum[c] += square[c];
 }
 
-// The mean frame of the known neighbours of a tet; false when it has none.
-static bool mean_of_neighbours(const vsc_axes *axes, const int32_t neighbours[4], double frame[9])
+// The mean frame of the known neighbours of an element; false when it has none.
+static bool mean_of_neighbours(const vsc_axes *axes, const int32_t neighbours[VSC_MOST_FACES],
+                               double frame[9])
 {
   double fibers[6] = {0}, sheets[6] = {0}, fiber[3], sheet[3];
-  for (int i = 0; i < 4; i++) {
+  for (int i = 0; i < VSC_MOST_FACES; i++) {
     if (neighbours[i] < 0 || !axes->known[neighbours[i]]) continue;
     add_square(&axes->frames[9 * (size_t)neighbours[i]], fibers);
     add_square(&axes->frames[9 * (size_t)neighbours[i] + 3], sheets);
@@ -26,9 +27,9 @@ static bool mean_of_neighbours(const vsc_axes *axes, const int32_t neighbours[4]
   return vsc_axes_complete(fiber, sheet, frame) != 0;
 }
 
-static bool touches_known(const vsc_axes *axes, const int32_t neighbours[4])
+static bool touches_known(const vsc_axes *axes, const int32_t neighbours[VSC_MOST_FACES])
 {
-  for (int i = 0; i < 4; i++)
+  for (int i = 0; i < VSC_MOST_FACES; i++)
     if (neighbours[i] >= 0 && axes->known[neighbours[i]]) return true;
   return false;
 }

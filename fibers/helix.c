@@ -8,6 +8,7 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
+#include "mesh/split.h"
 
 static const double PARALLEL = 1e-3;  // sine of the angle below which two axes are one
 
@@ -33,10 +34,10 @@ int vsc_helix_frame(const double transmural[3], const double long_axis[3], doubl
   return vsc_axes_complete(fiber, e_t, frame);
 }
 
-// The gradients of the four linear shape functions of a tet, 1/mm; returns its volume, mm^3.
-static double shape_gradients(const vsc_mesh *mesh, size_t tet, double gradient[4][3])
+// The gradients of the four linear shape functions of a tet, 1/mm; returns its volume, mm^3, not
+// negative, so that tets turned over in a bent element leave the Laplace problem definite.
+static double shape_gradients(const vsc_mesh *mesh, const uint32_t node[4], double gradient[4][3])
 {
-  const uint32_t *node = &mesh->corners[4 * tet];
   double edge[3][3];
   for (int i = 0; i < 3; i++)
     vsc_subtract(&mesh->nodes[3 * (size_t)node[i + 1]], &mesh->nodes[3 * (size_t)node[0]], edge[i]);
@@ -46,18 +47,25 @@ static double shape_gradients(const vsc_mesh *mesh, size_t tet, double gradient[
     for (int i = 1; i < 4; i++) gradient[i][a] /= determinant;
     gradient[0][a] = -(gradient[1][a] + gradient[2][a] + gradient[3][a]);
   }
-  return determinant / 6;
+  return fabs(determinant) / 6;
 }
 
-static void gradient_of(const vsc_mesh *mesh, size_t tet, const double *depth, double gradient[3],
-                        double *volume)
+// The mean gradient over an element's tets, and their volume.
+static void gradient_of(const vsc_mesh *mesh, size_t element, const double *depth,
+                        double gradient[3], double *volume)
 {
+  uint32_t tets[VSC_MOST_TETS][4];
   double shape[4][3];
-  *volume = shape_gradients(mesh, tet, shape);
-  for (int a = 0; a < 3; a++) {
-    gradient[a] = 0;
-    for (int i = 0; i < 4; i++) gradient[a] += shape[i][a] * depth[mesh->corners[4 * tet + (size_t)i]];
+  const int count = vsc_mesh_split(mesh, element, tets);
+  *volume = 0;
+  memset(gradient, 0, 3 * sizeof *gradient);
+  for (int t = 0; t < count; t++) {
+    const double part = shape_gradients(mesh, tets[t], shape);
+    *volume += part;
+    for (int i = 0; i < 4; i++)
+      for (int a = 0; a < 3; a++) gradient[a] += part * shape[i][a] * depth[tets[t][i]];
   }
+  for (int a = 0; a < 3; a++) gradient[a] /= *volume;
 }
 
 // ---- The Laplace problem: the known nodes are numbered -1, the free ones from 0.
@@ -107,9 +115,9 @@ static vsc_status check_parts(const laplace *problem, vsc_error *error)
   if (!VSC_NEW(parent, mesh->node_count)) return vsc_fail_memory(error, "the parts of the mesh");
   for (size_t i = 0; i < mesh->node_count; i++) parent[i] = (uint32_t)i;
   for (size_t e = 0; e < mesh->element_count; e++)
-    for (int i = 1; i < 4; i++) {
-      const uint32_t a = root_of(parent, mesh->corners[4 * e]);
-      const uint32_t b = root_of(parent, mesh->corners[4 * e + (size_t)i]);
+    for (size_t c = mesh->start[e] + 1; c < mesh->start[e + 1]; c++) {
+      const uint32_t a = root_of(parent, mesh->corners[c - 1]);
+      const uint32_t b = root_of(parent, mesh->corners[c]);
       parent[a < b ? b : a] = a < b ? a : b;
     }
   uint8_t *held;
@@ -134,7 +142,8 @@ static vsc_status check_parts(const laplace *problem, vsc_error *error)
 static vsc_status cholmod_failure(const laplace *problem, vsc_error *error)
 {
   switch (problem->common.status) {
-    case CHOLMOD_OUT_OF_MEMORY: return vsc_fail_memory(error, "the depth of the wall");
+    case CHOLMOD_OUT_OF_MEMORY:
+      return vsc_fail_memory(error, "the depth of the wall");
     case CHOLMOD_TOO_LARGE:
       return vsc_fail(error, VSC_SYSTEM,
                       "helix: %zu free nodes are too many for the solver: use a coarser mesh",
@@ -150,20 +159,17 @@ static vsc_status cholmod_failure(const laplace *problem, vsc_error *error)
   }
 }
 
-static void add_tet(const laplace *problem, size_t tet, cholmod_triplet *triplet)
+static void add_tet(const laplace *problem, const uint32_t tet[4], cholmod_triplet *triplet)
 {
   double gradient[4][3];
-  const vsc_mesh *mesh = problem->mesh;
-  const double volume = shape_gradients(mesh, tet, gradient);
+  const double volume = shape_gradients(problem->mesh, tet, gradient);
   for (int i = 0; i < 4; i++) {
-    const uint32_t row_node = mesh->corners[4 * tet + (size_t)i];
-    const int32_t row = problem->number[row_node];
+    const int32_t row = problem->number[tet[i]];
     if (row < 0) continue;
     for (int j = 0; j < 4; j++) {
-      const uint32_t column_node = mesh->corners[4 * tet + (size_t)j];
-      const int32_t column = problem->number[column_node];
+      const int32_t column = problem->number[tet[j]];
       const double value = volume * vsc_dot(gradient[i], gradient[j]);
-      if (column < 0) ((double *)problem->right->x)[row] -= value * problem->depth[column_node];
+      if (column < 0) ((double *)problem->right->x)[row] -= value * problem->depth[tet[j]];
       if (column < 0 || column > row) continue;
       ((int *)triplet->i)[triplet->nnz] = row;
       ((int *)triplet->j)[triplet->nnz] = column;
@@ -172,15 +178,29 @@ static void add_tet(const laplace *problem, size_t tet, cholmod_triplet *triplet
   }
 }
 
+// The tets of a mesh.
+static size_t count_tets(const vsc_mesh *mesh)
+{
+  uint32_t tets[VSC_MOST_TETS][4];
+  size_t count = 0;
+  for (size_t e = 0; e < mesh->element_count; e++) count += (size_t)vsc_mesh_split(mesh, e, tets);
+  return count;
+}
+
 static bool assemble(laplace *problem)
 {
   const size_t n = problem->free;
+  const vsc_mesh *mesh = problem->mesh;
   cholmod_common *common = &problem->common;
   problem->right = cholmod_zeros(n, 1, CHOLMOD_REAL, common);
   cholmod_triplet *triplet =
-      cholmod_allocate_triplet(n, n, 10 * problem->mesh->element_count, -1, CHOLMOD_REAL, common);
+      cholmod_allocate_triplet(n, n, 10 * count_tets(mesh), -1, CHOLMOD_REAL, common);
   if (problem->right != NULL && triplet != NULL) {
-    for (size_t e = 0; e < problem->mesh->element_count; e++) add_tet(problem, e, triplet);
+    for (size_t e = 0; e < mesh->element_count; e++) {
+      uint32_t tets[VSC_MOST_TETS][4];
+      const int count = vsc_mesh_split(mesh, e, tets);
+      for (int t = 0; t < count; t++) add_tet(problem, tets[t], triplet);
+    }
     problem->matrix = cholmod_triplet_to_sparse(triplet, 0, common);
   }
   cholmod_free_triplet(&triplet, common);
@@ -239,23 +259,23 @@ static void nodal_gradients(const vsc_mesh *mesh, const double *depth, double *n
   for (size_t e = 0; e < mesh->element_count; e++) {
     double gradient[3], volume;
     gradient_of(mesh, e, depth, gradient, &volume);
-    for (int i = 0; i < 4; i++)
-      for (int a = 0; a < 3; a++)
-        nodal[3 * (size_t)mesh->corners[4 * e + (size_t)i] + (size_t)a] += volume * gradient[a];
+    for (size_t c = mesh->start[e]; c < mesh->start[e + 1]; c++)
+      for (size_t a = 0; a < 3; a++)
+        nodal[3 * (size_t)mesh->corners[c] + a] += volume * gradient[a];
   }
 }
 
-// A gradient counts as zero when the depth changes by less than 1e-9 over the size of the tet.
-static void transmural_axis(const vsc_mesh *mesh, size_t tet, const double *depth,
+// A gradient counts as zero when the depth changes by less than 1e-9 over the size of the element.
+static void transmural_axis(const vsc_mesh *mesh, size_t element, const double *depth,
                             const double *nodal, double e_t[3])
 {
   double volume;
-  gradient_of(mesh, tet, depth, e_t, &volume);
+  gradient_of(mesh, element, depth, e_t, &volume);
   if (vsc_norm(e_t) * cbrt(volume) > 1e-9) return;
-  for (int a = 0; a < 3; a++) {
+  for (size_t a = 0; a < 3; a++) {
     e_t[a] = 0;
-    for (int i = 0; i < 4; i++)
-      e_t[a] += nodal[3 * (size_t)mesh->corners[4 * tet + (size_t)i] + (size_t)a];
+    for (size_t c = mesh->start[element]; c < mesh->start[element + 1]; c++)
+      e_t[a] += nodal[3 * (size_t)mesh->corners[c] + a];
   }
 }
 
@@ -265,7 +285,8 @@ static void set_axes(const vsc_mesh *mesh, const vsc_fiber_def *definition, cons
   for (size_t e = 0; e < mesh->element_count; e++) {
     double e_t[3], t = 0;
     transmural_axis(mesh, e, depth, nodal, e_t);
-    for (int i = 0; i < 4; i++) t += depth[mesh->corners[4 * e + (size_t)i]] / 4;
+    const size_t first = mesh->start[e], end = mesh->start[e + 1];
+    for (size_t c = first; c < end; c++) t += depth[mesh->corners[c]] / (double)(end - first);
     const double angle = (1 - t) * definition->endo_angle + t * definition->epi_angle;
     axes->known[e] = vsc_helix_frame(e_t, definition->long_axis, angle, &axes->frames[9 * e]) != 0;
   }

@@ -8,10 +8,11 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
+#include "mesh/split.h"
 
 enum {
-  ENOUGH = 16,  // voxel centres in a tet that make a mean
-  POINTS = 20,  // of a tet with fewer, where the map is interpolated
+  ENOUGH = 16,  // voxel centres in an element that make a mean
+  POINTS = 20,  // of each tet of an element with fewer, where the map is interpolated
 };
 static const double RIDGE = 0.01;  // added to the voxels' variance, in voxels squared
 static const double REACH = 2;     // standard deviations that the mean may be moved by
@@ -23,7 +24,7 @@ typedef struct angle_map {
   const double *azimuth, *elevation, *mask, *weight;  // the last two may be NULL
 } angle_map;
 
-// Weighted sums over voxels; y is the voxel's index relative to the centroid of the tet.
+// Weighted sums over voxels; y is the voxel's index relative to the centroid of the element.
 typedef struct moments {
   double weight;
   double place[3];     // y
@@ -37,7 +38,15 @@ typedef struct index_tet {
   double node[4][3];
   double centre[3];
   double gradient[4][3];  // of the barycentric coordinates
+  double volume;          // voxels, not negative
 } index_tet;
+
+// An element as tets.
+typedef struct index_element {
+  int count;
+  index_tet tets[VSC_MOST_TETS];
+  double centre[3];
+} index_element;
 
 // ---- Looking up and checking the map
 
@@ -134,7 +143,7 @@ static vsc_status open_map(const vsc_image *image, const vsc_angle_map_def *def,
   return status;
 }
 
-// ---- Gathering the voxels of one tet
+// ---- Gathering the voxels of one element
 
 static void add_voxel(const angle_map *map, const size_t at[3], double share,
                       const double centre[3], moments *sum)
@@ -162,12 +171,12 @@ static void add_voxel(const angle_map *map, const size_t at[3], double share,
   }
 }
 
-static index_tet make_tet(const vsc_mesh *mesh, const vsc_image *image, size_t e)
+static index_tet make_tet(const vsc_mesh *mesh, const vsc_image *image, const uint32_t corners[4])
 {
   index_tet tet = {0};
   double edge[3][3];
   for (int i = 0; i < 4; i++) {
-    vsc_image_index(image, &mesh->nodes[3 * (size_t)mesh->corners[4 * e + (size_t)i]], tet.node[i]);
+    vsc_image_index(image, &mesh->nodes[3 * (size_t)corners[i]], tet.node[i]);
     for (int a = 0; a < 3; a++) tet.centre[a] += tet.node[i][a] / 4;
   }
   for (int i = 0; i < 3; i++) vsc_subtract(tet.node[i + 1], tet.node[0], edge[i]);
@@ -178,7 +187,25 @@ static index_tet make_tet(const vsc_mesh *mesh, const vsc_image *image, size_t e
       tet.gradient[i][a] /= determinant;
       tet.gradient[0][a] -= tet.gradient[i][a];
     }
+  tet.volume = fabs(determinant) / 6;
   return tet;
+}
+
+static index_element make_element(const vsc_mesh *mesh, const vsc_image *image, size_t e)
+{
+  index_element element = {0};
+  uint32_t tets[VSC_MOST_TETS][4];
+  double volume = 0;
+  element.count = vsc_mesh_split(mesh, e, tets);
+  for (int t = 0; t < element.count; t++) {
+    element.tets[t] = make_tet(mesh, image, tets[t]);
+    volume += element.tets[t].volume;
+  }
+  for (int t = 0; t < element.count; t++) {
+    const double share = element.count == 1 ? 1 : element.tets[t].volume / volume;
+    for (int a = 0; a < 3; a++) element.centre[a] += share * element.tets[t].centre[a];
+  }
+  return element;
 }
 
 // First and last whole number in [low, high] and [0, size); first > last when there is none.
@@ -216,7 +243,8 @@ static void row_range(const index_tet *tet, long j, long k, size_t size, long *f
 }
 
 // Adds the voxels whose centres lie in the tet; returns how many there are, with data or without.
-static size_t gather_inside(const angle_map *map, const index_tet *tet, moments *sum)
+static size_t gather_inside(const angle_map *map, const index_tet *tet, const double home[3],
+                            moments *sum)
 {
   const size_t *size = map->image->size;
   size_t inside = 0;
@@ -229,15 +257,15 @@ static size_t gather_inside(const angle_map *map, const index_tet *tet, moments 
       row_range(tet, j, k, size[0], &i, &i_last);
       for (; i <= i_last; i++, inside++) {
         const size_t at[3] = {(size_t)i, (size_t)j, (size_t)k};
-        add_voxel(map, at, 1, tet->centre, sum);
+        add_voxel(map, at, 1, home, sum);
       }
     }
   return inside;
 }
 
-// Adds the 8 voxels round a point with their trilinear weights.
-static void gather_round(const angle_map *map, const index_tet *tet, const double point[3],
-                         moments *sum)
+// Adds the 8 voxels round a point with their trilinear weights times `weight`.
+static void gather_round(const angle_map *map, const double point[3], double weight,
+                         const double home[3], moments *sum)
 {
   const size_t *size = map->image->size;
   double low[3], part[3];
@@ -248,7 +276,7 @@ static void gather_round(const angle_map *map, const index_tet *tet, const doubl
   }
   for (int corner = 0; corner < 8; corner++) {
     size_t at[3];
-    double share = 1;
+    double share = weight;
     bool within = true;
     for (int a = 0; a < 3; a++) {
       const int up = corner >> a & 1;
@@ -257,13 +285,14 @@ static void gather_round(const angle_map *map, const index_tet *tet, const doubl
       within = within && index >= 0 && index < (double)size[a];
       at[a] = within ? (size_t)index : 0;
     }
-    if (within && share > 0) add_voxel(map, at, share, tet->centre, sum);
+    if (within && share > 0) add_voxel(map, at, share, home, sum);
   }
 }
 
 // The points' barycentric coordinates are (i + d) / (3 + 4 d) for all i >= 0 of sum 3; this d makes
 // their plain mean exact for quadratic functions.
-static void gather_interpolated(const angle_map *map, const index_tet *tet, moments *sum)
+static void gather_interpolated(const angle_map *map, const index_tet *tet, double weight,
+                                const double home[3], moments *sum)
 {
   const double d = (sqrt(1.89) - 0.9) / 1.2;
   for (int i = 0; i <= 3; i++)
@@ -273,7 +302,7 @@ static void gather_interpolated(const angle_map *map, const index_tet *tet, mome
         double point[3] = {0};
         for (int n = 0; n < 4; n++)
           for (int a = 0; a < 3; a++) point[a] += share[n] / (3 + 4 * d) * tet->node[n][a];
-        gather_round(map, tet, point, sum);
+        gather_round(map, point, weight, home, sum);
       }
 }
 
@@ -292,7 +321,7 @@ static void solve_three(const double s[6], const double b[3], double x[3])
   }
 }
 
-// The weighted mean of f f^T, plain and moved to the centroid of the tet.
+// The weighted mean of f f^T, plain and moved to the centroid of the element.
 static void mean_axes(const moments *sum, double plain[6], double moved[6])
 {
   static const int row[6] = {0, 0, 0, 1, 1, 2}, column[6] = {0, 1, 2, 1, 2, 2};
@@ -320,16 +349,22 @@ static void turn(const double direction[9], double axis[3])
   memcpy(axis, turned, sizeof turned);
 }
 
-// Samples one tet; returns false when it finds no voxel with data.
-static bool sample_tet(const angle_map *map, const index_tet *tet, double frame[9],
-                       double *coherence, bool *fallback)
+// Samples one element; returns false when it finds no voxel with data.
+static bool sample_element(const angle_map *map, const index_element *element, double frame[9],
+                           double *coherence, bool *fallback)
 {
   moments sum = {0};
   double plain[6], moved[6], axis[3], values[3];
-  *fallback = gather_inside(map, tet, &sum) < ENOUGH;
+  size_t inside = 0;
+  for (int t = 0; t < element->count; t++)
+    inside += gather_inside(map, &element->tets[t], element->centre, &sum);
+  *fallback = inside < ENOUGH;
   if (*fallback) {
     sum = (moments){0};
-    gather_interpolated(map, tet, &sum);
+    for (int t = 0; t < element->count; t++) {
+      const double weight = element->tets[t].volume / element->tets[0].volume;
+      gather_interpolated(map, &element->tets[t], weight, element->centre, &sum);
+    }
   }
   if (!(sum.weight > 0)) return false;
   mean_axes(&sum, plain, moved);
@@ -376,8 +411,9 @@ vsc_status vsc_fibers_sample(const vsc_mesh *mesh, const vsc_image *image,
   size_t found = 0;
   for (size_t e = 0; e < mesh->element_count; e++) {
     bool fallback;
-    const index_tet tet = make_tet(mesh, image, e);
-    axes->known[e] = sample_tet(&map, &tet, &axes->frames[9 * e], &coherence[found], &fallback);
+    const index_element element = make_element(mesh, image, e);
+    axes->known[e] =
+        sample_element(&map, &element, &axes->frames[9 * e], &coherence[found], &fallback);
     if (!axes->known[e]) continue;
     if (fallback) report->fallback++;
     found++;

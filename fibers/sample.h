@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fibre axes of every tet from a voxel map of angles, safe for axes: f and -f, and angles on both
+// Fibre axes of every element from a voxel map of angles, safe for axes: f and -f, and angles on both
 // sides of a wrap, are the same fibre. Nothing here averages an angle or a signed vector.
 #ifndef VSC_FIBERS_SAMPLE_H
 #define VSC_FIBERS_SAMPLE_H
@@ -31,16 +31,17 @@ typedef struct vsc_fiber_report {
                              // degrees
 } vsc_fiber_report;
 
-// The axis of each tet is the eigenvector of the largest eigenvalue of the mean of f f^T over the
-// tet, each voxel weighted as `map` says; voxels outside the mask, and those of weight 0, hold
+// The axis of each element is the eigenvector of the largest eigenvalue of the mean of f f^T over
+// it, each voxel weighted as `map` says; voxels outside the mask, and those of weight 0, hold
 // nothing.
 //
-// Which voxels: those whose centres lie in the tet, each counting once; when fewer than 16 do, the
-// 8 voxels round each of 20 points of the tet, with their trilinear weights, which is the mean of
-// the trilinear interpolant. How: the weighted mean of f f^T is moved from the centroid of those
-// voxels to the centroid of the tet along the gradient of their weighted linear fit, by at most
-// twice their standard deviation. So it hardly matters that the mask cuts the neighbourhood of a
-// tet at the surface. A tet without any such voxel stays unknown.
+// Which voxels: those whose centres lie in the element, each counting once; when fewer than 16 do,
+// the 8 voxels round each of 20 points of the element's tets (vsc_mesh_split), with their trilinear
+// weights times the tet's volume, which is the mean of the trilinear interpolant. How: the weighted
+// mean of f f^T is moved from the centroid of those voxels to the centroid of the element along the
+// gradient of their weighted linear fit, by at most twice their standard deviation. So it hardly
+// matters that the mask cuts the neighbourhood of an element at the surface. An element without any
+// such voxel stays unknown.
 //
 // Origin, spacing and direction of the image are honoured; a left-handed direction too. Sets
 // `known` of all mesh->element_count axes, the frames of those found (sheets by rule), and all of

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fibre fields by formula, for tests and for the figures of Bourguignon & Cani 2000. Each is
-// evaluated at the centre of the tet; x0 and x1 are the corners of the box round the mesh.
+// evaluated at the centre of the element; x0 and x1 are the corners of the box round the mesh.
 #ifndef VSC_FIBERS_SYNTHETIC_H
 #define VSC_FIBERS_SYNTHETIC_H
 
@@ -17,7 +17,7 @@
 //   HELICOIDAL    r = (x - xm, y - ym, 0) from the vertical mid-line, sheet hint r,
 //                 f = cos p (-r_y, r_x, 0) / |r| + sin p (0, 0, 1) with p = `pitch`; on the
 //                 line f = (0, 0, 1)
-//   RANDOM        uniform on the sphere, one draw per tet in the mesh's order, from the Mersenne
+//   RANDOM        uniform on the sphere, one draw per element in the mesh's order, from the Mersenne
 //                 twister of GSL with `seed`; sheet by rule
 // VSC_INPUT for another source, a zero or non-finite direction or a non-finite pitch.
 vsc_status vsc_fibers_synthetic(const vsc_mesh *mesh, const vsc_fiber_def *definition,

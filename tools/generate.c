@@ -12,6 +12,8 @@
 #include "io/vtk.h"
 #include "mesh/surface.h"
 #include "tools/shapes.h"
+#include "tools/shapes_block.h"
+#include "tools/shapes_cloud.h"
 #include "tools/shapes_sheet.h"
 #include "tools/verbs.h"
 
@@ -19,9 +21,12 @@ typedef struct wish {
   const char *shape;  // lv, map, block, sheet or tube
   const char *file;
   vsc_lv_shape lv;
-  vsc_block_shape block;         // of a sheet, too: its first two numbers
+  vsc_block_shape block;           // of a sheet, too: its first two numbers
   int cell_numbers, size_numbers;  // how many were given; 0: none
   vsc_tube_shape tube;
+  vsc_block_kind element;
+  bool unstructured;
+  size_t points;                 // 0: the default
   double endo_angle, epi_angle;  // degrees
   double spacing;                // mm; 0: a quarter of the wall
 } wish;
@@ -48,8 +53,14 @@ static void print_help(void)
       "      --size=X,Y,Z                     [10,10,10]\n"
       "      --tets=5|6                       tets of a brick [5]\n"
       "      --jitter=PART --seed=N           inner nodes moved by up to PART of a brick, 0 to 0.3 "
-      "[0, 1]\n\n"
-      "sheet: a rectangle of triangles in the plane z = 0, from the origin; node arrays x0 x1 y0 y1.\n"
+      "[0, 1]\n"
+      "      --element=tet|hex|wedge|mixed    what becomes of the bricks [tet]\n"
+      "      --unstructured                   instead of bricks, scattered points and their "
+      "Delaunay "
+      "tets\n"
+      "      --points=N                       how many of them [400]\n\n"
+      "sheet: a rectangle of triangles in the plane z = 0, from the origin; node arrays x0 x1 y0 "
+      "y1.\n"
       "      --cells=NX,NY --size=X,Y         cells of two triangles each [20,20, 10,10]\n"
       "      --jitter=PART --seed=N           as above\n\n"
       "tube: the surface of a cylinder about z, from z = 0; node arrays z0 z1.\n"
@@ -62,6 +73,7 @@ static void print_help(void)
       "  viscera generate lv -o data/lv.vtu\n"
       "  viscera generate map --spacing 2.4 -o data/lv_angles.vti\n"
       "  viscera generate block --cells 8,4,4 --size 40,20,20 --jitter 0.2 -o block.vtu\n"
+      "  viscera generate block --unstructured --points 222 --seed 3 -o scattered.vtu\n"
       "  viscera generate sheet --cells 40,10 --size 80,20 -o strip.vtu");
 }
 
@@ -82,8 +94,11 @@ enum {
   TETS,
   JITTER,
   SEED,
+  ELEMENT,
+  UNSTRUCTURED,
+  POINTS,
   RADIUS,
-  LENGTH
+  LENGTH,
 };
 
 static const struct option options[] = {
@@ -103,6 +118,9 @@ static const struct option options[] = {
     {"tets", required_argument, NULL, TETS},
     {"jitter", required_argument, NULL, JITTER},
     {"seed", required_argument, NULL, SEED},
+    {"element", required_argument, NULL, ELEMENT},
+    {"unstructured", no_argument, NULL, UNSTRUCTURED},
+    {"points", required_argument, NULL, POINTS},
     {"radius", required_argument, NULL, RADIUS},
     {"length", required_argument, NULL, LENGTH},
     {"output", required_argument, NULL, 'o'},
@@ -133,16 +151,34 @@ static bool read_counts(const char *text, size_t *counts, int count)
   return true;
 }
 
+static bool read_element(const char *text, vsc_block_kind *kind)
+{
+  static const char *const words[] = {[VSC_BLOCK_TETS] = "tet",
+                                      [VSC_BLOCK_HEXES] = "hex",
+                                      [VSC_BLOCK_WEDGES] = "wedge",
+                                      [VSC_BLOCK_MIXED] = "mixed"};
+  for (size_t k = 0; k < sizeof words / sizeof words[0]; k++) {
+    *kind = (vsc_block_kind)k;
+    if (strcmp(text, words[k]) == 0) return true;
+  }
+  return false;
+}
+
 static bool read_option(wish *wish, int option, const char *text)
 {
   size_t count = 0;
   bool good;
   switch (option) {
-    case ENDO_RADIUS: return read_numbers(text, &wish->lv.endo_radius, 1);
-    case ENDO_LENGTH: return read_numbers(text, &wish->lv.endo_length, 1);
-    case EPI_RADIUS: return read_numbers(text, &wish->lv.epi_radius, 1);
-    case EPI_LENGTH: return read_numbers(text, &wish->lv.epi_length, 1);
-    case BASE: return read_numbers(text, &wish->lv.base, 1);
+    case ENDO_RADIUS:
+      return read_numbers(text, &wish->lv.endo_radius, 1);
+    case ENDO_LENGTH:
+      return read_numbers(text, &wish->lv.endo_length, 1);
+    case EPI_RADIUS:
+      return read_numbers(text, &wish->lv.epi_radius, 1);
+    case EPI_LENGTH:
+      return read_numbers(text, &wish->lv.epi_length, 1);
+    case BASE:
+      return read_numbers(text, &wish->lv.base, 1);
     case AROUND:
       good = read_counts(text, &wish->lv.around, 1);
       wish->tube.around = wish->lv.around;
@@ -151,23 +187,36 @@ static bool read_option(wish *wish, int option, const char *text)
       good = read_counts(text, &wish->lv.along, 1);
       wish->tube.along = wish->lv.along;
       return good;
-    case RADIUS: return read_numbers(text, &wish->tube.radius, 1);
-    case LENGTH: return read_numbers(text, &wish->tube.length, 1);
-    case LAYERS: return read_counts(text, &wish->lv.layers, 1);
-    case ENDO_ANGLE: return read_numbers(text, &wish->endo_angle, 1);
-    case EPI_ANGLE: return read_numbers(text, &wish->epi_angle, 1);
-    case SPACING: return read_numbers(text, &wish->spacing, 1) && wish->spacing > 0;
+    case RADIUS:
+      return read_numbers(text, &wish->tube.radius, 1);
+    case LENGTH:
+      return read_numbers(text, &wish->tube.length, 1);
+    case LAYERS:
+      return read_counts(text, &wish->lv.layers, 1);
+    case ENDO_ANGLE:
+      return read_numbers(text, &wish->endo_angle, 1);
+    case EPI_ANGLE:
+      return read_numbers(text, &wish->epi_angle, 1);
+    case SPACING:
+      return read_numbers(text, &wish->spacing, 1) && wish->spacing > 0;
     case CELLS:
       wish->cell_numbers = read_counts(text, wish->block.cells, 3) ? 3 : 2;
       return wish->cell_numbers == 3 || read_counts(text, wish->block.cells, 2);
     case SIZE:
       wish->size_numbers = read_numbers(text, wish->block.size, 3) ? 3 : 2;
       return wish->size_numbers == 3 || read_numbers(text, wish->block.size, 2);
-    case JITTER: return read_numbers(text, &wish->block.jitter, 1);
+    case JITTER:
+      return read_numbers(text, &wish->block.jitter, 1);
     case TETS:
       good = read_counts(text, &count, 1);
       wish->block.tets_per_cell = (int)count;
       return good;
+    case ELEMENT:
+      return read_element(text, &wish->element);
+    case UNSTRUCTURED:
+      return wish->unstructured = true;
+    case POINTS:
+      return read_counts(text, &wish->points, 1) && wish->points > 0;
     default:
       good = read_counts(text, &count, 1);
       wish->block.seed = count;
@@ -233,10 +282,15 @@ static vsc_status generate_map(const wish *wish, const char *file, vsc_error *er
 static vsc_status generate_block(const wish *wish, const char *file, vsc_error *error)
 {
   vsc_mesh *mesh = NULL;
-  vsc_status status = vsc_block_mesh(&wish->block, &mesh, error);
+  vsc_cloud_shape cloud = vsc_cloud_default();
+  memcpy(cloud.size, wish->block.size, sizeof cloud.size);
+  cloud.seed = wish->block.seed;
+  if (wish->points > 0) cloud.points = wish->points;
+  vsc_status status = wish->unstructured ? vsc_cloud_mesh(&cloud, &mesh, error)
+                                         : vsc_block_of(&wish->block, wish->element, &mesh, error);
   if (status == VSC_OK) status = write_mesh(file, mesh, error);
   if (status == VSC_OK)
-    printf("%s: %zu nodes, %zu tets, %g mm3\n", file, mesh->node_count, mesh->element_count,
+    printf("%s: %zu nodes, %zu elements, %g mm3\n", file, mesh->node_count, mesh->element_count,
            mesh_volume(mesh));
   vsc_mesh_free(mesh);
   return status;
@@ -298,13 +352,17 @@ static vsc_status generate(const wish *wish, vsc_error *error)
   for (size_t k = 0; k < sizeof shapes / sizeof shapes[0]; k++)
     if (strcmp(wish->shape, shapes[k].name) == 0)
       return shapes[k].make(wish, wish->file != NULL ? wish->file : shapes[k].file, error);
-  return vsc_fail(error, VSC_INPUT, "unknown shape '%s', must be lv, map, block, sheet or tube", wish->shape);
+  return vsc_fail(error, VSC_INPUT, "unknown shape '%s', must be lv, map, block, sheet or tube",
+                  wish->shape);
 }
 
 int vsc_verb_generate(int argc, char **argv)
 {
-  wish wish = {
-      .lv = vsc_lv_default(), .block = vsc_block_default(), .tube = vsc_tube_default(), .endo_angle = 60, .epi_angle = -60};
+  wish wish = {.lv = vsc_lv_default(),
+               .block = vsc_block_default(),
+               .tube = vsc_tube_default(),
+               .endo_angle = 60,
+               .epi_angle = -60};
   optind = 0;
   int option, index = 0;
   while ((option = getopt_long(argc, argv, "o:h", options, &index)) != -1) {
@@ -323,7 +381,8 @@ int vsc_verb_generate(int argc, char **argv)
   }
   if (optind + 1 != argc) {
     fprintf(stderr,
-            "viscera generate: say one shape: lv, map, block, sheet or tube, see `viscera generate --help`\n");
+            "viscera generate: say one shape: lv, map, block, sheet or tube, see `viscera generate "
+            "--help`\n");
     return VSC_INPUT;
   }
   wish.shape = argv[optind];

@@ -27,6 +27,7 @@ static const verb verbs[] = {
      "say what a scene would do, what it would cost, what looks odd"},
     {"info", vsc_verb_info, false, "say what meshes, images, series, checkpoints or scenes hold"},
     {"compare", vsc_verb_compare, false, "error norms between two meshes or two series"},
+    {"measure", vsc_verb_measure, false, "how a slice of the tissue has moved, turned, changed size"},
     {"schema", vsc_verb_schema, false, "print a commented template of everything a scene can say"},
     {"generate", vsc_verb_generate, false, "make the meshes and angle maps that ship with viscera"},
     {"bench", vsc_verb_bench, true, "how many element updates a second this machine does"},

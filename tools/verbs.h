@@ -9,6 +9,7 @@ int vsc_verb_run(int argc, char **argv);
 int vsc_verb_check(int argc, char **argv);
 int vsc_verb_info(int argc, char **argv);
 int vsc_verb_compare(int argc, char **argv);
+int vsc_verb_measure(int argc, char **argv);
 int vsc_verb_schema(int argc, char **argv);
 int vsc_verb_generate(int argc, char **argv);
 int vsc_verb_bench(int argc, char **argv);

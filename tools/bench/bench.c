@@ -11,6 +11,7 @@
 #include "mech/kernel.h"
 #include "run/problem.h"
 #include "solve/explicit.h"
+#include "tools/bench/paper.h"
 #include "tools/shapes.h"
 #include "tools/verbs.h"
 
@@ -21,6 +22,7 @@ static const char help[] =
     "on one thread by processor time, on all threads by the wall clock.\n\n"
     "  -n, --tets N      a block of about N tets instead of 10 thousand and 1 million\n"
     "  -s, --shuffle     tets and nodes in random order, as from an unstructured file\n"
+    "      --paper       instead, Table 1 of Bourguignon & Cani 2000 as CSV\n"
     "  -h, --help        this text\n\n"
     "Example:\n"
     "  viscera bench --tets 100000\n";
@@ -153,15 +155,18 @@ int vsc_verb_bench(int argc, char **argv)
 {
   static const struct option options[] = {{"tets", required_argument, NULL, 'n'},
                                           {"shuffle", no_argument, NULL, 's'},
+                                          {"paper", no_argument, NULL, 'p'},
                                           {"help", no_argument, NULL, 'h'},
                                           {0}};
   long tets = 0;
-  bool shuffled = false;
+  bool shuffled = false, paper = false;
   for (int c; (c = getopt_long(argc, argv, "n:sh", options, NULL)) != -1;) {
     if (c == 'n')
       tets = strtol(optarg, NULL, 10);
     else if (c == 's')
       shuffled = true;
+    else if (c == 'p')
+      paper = true;
     else if (c == 'h')
       return fputs(help, stdout) < 0 ? 4 : 0;
     else
@@ -172,6 +177,11 @@ int vsc_verb_bench(int argc, char **argv)
     }
   }
   vsc_error error;
+  if (paper) {
+    const vsc_status done = vsc_bench_paper(&error);
+    if (done != VSC_OK) fprintf(stderr, "viscera: %s\n", error.text);
+    return (int)done;
+  }
   printf("million element updates per second, %s kernels, double precision\n", vsc_kernel_set());
   vsc_status status = bench_block(tets > 0 ? (size_t)tets : 10000, shuffled, &error);
   if (status == VSC_OK && tets == 0) status = bench_block(1000000, shuffled, &error);

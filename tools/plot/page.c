@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "tools/plot/graphs.h"
+#include "tools/plot/ink.h"
 
 // The page, in pixels: graphs on the left, two pictures on the right, a bar below them.
 enum {
@@ -20,24 +21,6 @@ enum {
   FOOT = 96,     // bar and scale below the pictures
   FINE = 3,      // pictures are drawn this much larger, then shrunk
 };
-
-static const double INK[3] = {0.20, 0.20, 0.22}, FAINT[3] = {0.45, 0.45, 0.48};
-
-static void write_text(cairo_t *cairo, double x, double y, double size, const double colour[3],
-                       double align, const char *text)
-{
-  cairo_text_extents_t extents;
-  cairo_set_font_size(cairo, size);
-  cairo_text_extents(cairo, text, &extents);
-  cairo_set_source_rgb(cairo, colour[0], colour[1], colour[2]);
-  cairo_move_to(cairo, x - align * extents.x_advance, y);
-  cairo_show_text(cairo, text);
-}
-
-static void use_font(cairo_t *cairo, cairo_font_weight_t weight)
-{
-  cairo_select_font_face(cairo, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, weight);
-}
 
 // The first value and the smallest of the first cavity; returns its column or NULL.
 static const double *first_cavity(const vsc_signals *signals, double *rest, double *least)
@@ -54,9 +37,9 @@ static void draw_head(const vsc_page *page, cairo_t *cairo)
 {
   char text[256];
   double rest, least;
-  use_font(cairo, CAIRO_FONT_WEIGHT_BOLD);
-  write_text(cairo, MARGIN, 46, 27, INK, 0, page->title);
-  use_font(cairo, CAIRO_FONT_WEIGHT_NORMAL);
+  vsc_use_font(cairo, CAIRO_FONT_WEIGHT_BOLD);
+  vsc_write_text(cairo, MARGIN, 46, 27, VSC_INK, 0, page->title);
+  vsc_use_font(cairo, CAIRO_FONT_WEIGHT_NORMAL);
   snprintf(text, sizeof text, "%zu nodes, %zu tetrahedra", page->mesh->node_count,
            page->mesh->element_count);
   if (first_cavity(page->signals, &rest, &least) != NULL && rest > 0) {
@@ -65,7 +48,7 @@ static void draw_head(const vsc_page *page, cairo_t *cairo)
              "   \u00b7   cavity %.1f ml at rest, %.1f ml contracted: %.0f %% ejected", rest, least,
              100 * (rest - least) / rest);
   }
-  write_text(cairo, MARGIN, 74, 15, FAINT, 0, text);
+  vsc_write_text(cairo, MARGIN, 74, 15, VSC_FAINT, 0, text);
 }
 
 // ---- pictures
@@ -121,57 +104,10 @@ static cairo_surface_t *draw_picture(const vsc_page *page, const frame_box *box,
 static void write_caption(cairo_t *cairo, const frame_box *box, const char *title, const char *text)
 {
   const double middle = box->x + box->width / 2;
-  use_font(cairo, CAIRO_FONT_WEIGHT_BOLD);
-  write_text(cairo, middle, box->y + 24, 17, INK, 0.5, title);
-  use_font(cairo, CAIRO_FONT_WEIGHT_NORMAL);
-  write_text(cairo, middle, box->y + 45, 14, FAINT, 0.5, text);
-}
-
-// The bar of a round length that tells the pictures' scale.
-static void draw_scale(cairo_t *cairo, double x, double y, double scale)
-{
-  char text[32];
-  double length = 1;
-  for (int k = 0; length * scale < 60; k++) length *= k % 3 == 1 ? 2.5 : 2;
-  snprintf(text, sizeof text, "%g mm", length);
-  cairo_set_source_rgb(cairo, INK[0], INK[1], INK[2]);
-  cairo_set_line_width(cairo, 3);
-  cairo_move_to(cairo, x, y);
-  cairo_rel_line_to(cairo, length * scale, 0);
-  cairo_stroke(cairo);
-  write_text(cairo, x + length * scale / 2, y + 24, 14, INK, 0.5, text);
-}
-
-// The next of 1, 2, 5 times a power of ten that divides `span` into five parts at most.
-static double tick_step(double span)
-{
-  const double power = pow(10, floor(log10(span / 5)));
-  const double share = span / 5 / power;
-  return power * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);
-}
-
-static void draw_bar(cairo_t *cairo, double x, double y, double width, double largest)
-{
-  const int steps = 200;
-  cairo_set_antialias(cairo, CAIRO_ANTIALIAS_NONE);
-  for (int k = 0; k < steps; k++) {
-    double colour[3];
-    vsc_view_colour((k + 0.5) / steps, colour);
-    cairo_set_source_rgb(cairo, colour[0], colour[1], colour[2]);
-    cairo_rectangle(cairo, x + k * width / steps, y, width / steps + 0.5, 16);
-    cairo_fill(cairo);
-  }
-  cairo_set_antialias(cairo, CAIRO_ANTIALIAS_DEFAULT);
-  cairo_set_source_rgb(cairo, INK[0], INK[1], INK[2]);
-  cairo_set_line_width(cairo, 1);
-  cairo_rectangle(cairo, x - 0.5, y - 0.5, width + 1, 17);
-  cairo_stroke(cairo);
-  for (double value = 0, step = tick_step(largest); value <= largest * 1.0001; value += step) {
-    char text[32];
-    snprintf(text, sizeof text, "%g", value);
-    write_text(cairo, x + value / largest * width, y + 34, 13, INK, 0.5, text);
-  }
-  write_text(cairo, x + width / 2, y - 9, 14, INK, 0.5, "Active tension [kPa]");
+  vsc_use_font(cairo, CAIRO_FONT_WEIGHT_BOLD);
+  vsc_write_text(cairo, middle, box->y + 24, 17, VSC_INK, 0.5, title);
+  vsc_use_font(cairo, CAIRO_FONT_WEIGHT_NORMAL);
+  vsc_write_text(cairo, middle, box->y + 45, 14, VSC_FAINT, 0.5, text);
 }
 
 static double largest_tension(const vsc_page *page)
@@ -217,10 +153,10 @@ static vsc_status draw_pictures(const vsc_page *page, cairo_t *cairo, vsc_error 
     write_caption(cairo, &boxes[0], "At rest",
                   page->camera.whole ? "" : "cut open along the long axis");
     write_caption(cairo, &boxes[1], page->chosen ? "Moved" : "Most contracted", text);
-    draw_scale(cairo, GRAPHS_RIGHT + 40, HEIGHT - FOOT + 42, scale);
+    vsc_draw_scale(cairo, GRAPHS_RIGHT + 40, HEIGHT - FOOT + 42, scale);
     if (largest > 0)
-      draw_bar(cairo, GRAPHS_RIGHT + 300, HEIGHT - FOOT + 34, WIDTH - GRAPHS_RIGHT - MARGIN - 340,
-               largest);
+      vsc_draw_bar(cairo, GRAPHS_RIGHT + 300, HEIGHT - FOOT + 34, WIDTH - GRAPHS_RIGHT - MARGIN - 340,
+               0, largest, "Active tension [kPa]");
   }
   cairo_surface_destroy(rest);
   if (moved == NULL) return error->status;
@@ -229,17 +165,6 @@ static vsc_status draw_pictures(const vsc_page *page, cairo_t *cairo, vsc_error 
 }
 
 // ---- the page
-
-static vsc_status write_png(cairo_surface_t *surface, const char *file, vsc_error *error)
-{
-  char part[4096];
-  snprintf(part, sizeof part, "%s.part", file);
-  const cairo_status_t status = cairo_surface_write_to_png(surface, part);
-  if (status != CAIRO_STATUS_SUCCESS)
-    return vsc_fail(error, VSC_SYSTEM, "%s: %s", file, cairo_status_to_string(status));
-  if (rename(part, file) != 0) return vsc_fail(error, VSC_SYSTEM, "%s: %s", file, strerror(errno));
-  return VSC_OK;
-}
 
 vsc_status vsc_page_draw(const vsc_page *page, const char *file, vsc_error *error)
 {
@@ -259,7 +184,7 @@ vsc_status vsc_page_draw(const vsc_page *page, const char *file, vsc_error *erro
   }
   if (status == VSC_OK) draw_head(page, cairo);
   if (status == VSC_OK) status = draw_pictures(page, cairo, error);
-  if (status == VSC_OK) status = write_png(surface, file, error);
+  if (status == VSC_OK) status = vsc_write_png(surface, file, error);
   cairo_destroy(graphs);
   cairo_destroy(cairo);
   cairo_surface_destroy(left);

@@ -12,6 +12,7 @@
 #include "io/vtk.h"
 #include "tools/plot/page.h"
 #include "tools/plot/polar.h"
+#include "tools/plot/several.h"
 
 enum { PATH = 4096 };
 
@@ -37,6 +38,7 @@ static void print_help(void)
       "      --axis X,Y,Z   the long axis from apex to base, upwards in the picture (0,0,1)\n"
       "      --from X,Y,Z   the direction from which to look, across the axis (widest view)\n"
       "      --whole        don't cut the tissue open\n"
+      "      --view, --curves   first of all: several results in one picture, see --view --help\n"
       "  -h, --help         this text\n\n"
       "Examples:\n"
       "  viscera plot beat\n"
@@ -216,6 +218,8 @@ int main(int argc, char **argv)
       {"axis", required_argument, NULL, 'a'},   {"from", required_argument, NULL, 'f'},
       {"whole", no_argument, NULL, 'w'},        {"help", no_argument, NULL, 'h'},
       {"version", no_argument, NULL, 'v'},      {0}};
+  if (argc > 1 && (strcmp(argv[1], "--view") == 0 || strcmp(argv[1], "--curves") == 0))
+    return vsc_plot_several(argc - 1, argv + 1);
   request wish = {.axis = {0, 0, 1}, .time = NAN};
   vsc_error error;
   for (int option; (option = getopt_long(argc, argv, "o:h", options, NULL)) != -1;) {

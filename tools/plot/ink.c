@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/plot/ink.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "tools/plot/view.h"
+
+const double VSC_INK[3] = {0.20, 0.20, 0.22}, VSC_FAINT[3] = {0.45, 0.45, 0.48};
+
+void vsc_write_text(cairo_t *cairo, double x, double y, double size, const double colour[3],
+                    double align, const char *text)
+{
+  cairo_text_extents_t extents;
+  cairo_set_font_size(cairo, size);
+  cairo_text_extents(cairo, text, &extents);
+  cairo_set_source_rgb(cairo, colour[0], colour[1], colour[2]);
+  cairo_move_to(cairo, x - align * extents.x_advance, y);
+  cairo_show_text(cairo, text);
+}
+
+void vsc_use_font(cairo_t *cairo, cairo_font_weight_t weight)
+{
+  cairo_select_font_face(cairo, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, weight);
+}
+
+void vsc_draw_scale(cairo_t *cairo, double x, double y, double scale)
+{
+  char text[32];
+  double length = 1;
+  for (int k = 0; length * scale < 60; k++) length *= k % 3 == 1 ? 2.5 : 2;
+  snprintf(text, sizeof text, "%g mm", length);
+  cairo_set_source_rgb(cairo, VSC_INK[0], VSC_INK[1], VSC_INK[2]);
+  cairo_set_line_width(cairo, 3);
+  cairo_move_to(cairo, x, y);
+  cairo_rel_line_to(cairo, length * scale, 0);
+  cairo_stroke(cairo);
+  vsc_write_text(cairo, x + length * scale / 2, y + 24, 14, VSC_INK, 0.5, text);
+}
+
+double vsc_tick_step(double span)
+{
+  const double power = pow(10, floor(log10(span / 5)));
+  const double share = span / 5 / power;
+  return power * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);
+}
+
+void vsc_draw_bar(cairo_t *cairo, double x, double y, double width, double low, double high,
+                  const char *title)
+{
+  const int steps = 200;
+  cairo_set_antialias(cairo, CAIRO_ANTIALIAS_NONE);
+  for (int k = 0; k < steps; k++) {
+    double colour[3];
+    vsc_view_colour((k + 0.5) / steps, colour);
+    cairo_set_source_rgb(cairo, colour[0], colour[1], colour[2]);
+    cairo_rectangle(cairo, x + k * width / steps, y, width / steps + 0.5, 16);
+    cairo_fill(cairo);
+  }
+  cairo_set_antialias(cairo, CAIRO_ANTIALIAS_DEFAULT);
+  cairo_set_source_rgb(cairo, VSC_INK[0], VSC_INK[1], VSC_INK[2]);
+  cairo_set_line_width(cairo, 1);
+  cairo_rectangle(cairo, x - 0.5, y - 0.5, width + 1, 17);
+  cairo_stroke(cairo);
+  const double step = vsc_tick_step(high - low), slack = 1e-6 * (high - low);
+  for (double k = ceil((low - slack) / step); k * step <= high + slack; k++) {
+    char text[32];
+    snprintf(text, sizeof text, "%g", k == 0 ? 0 : k * step);
+    vsc_write_text(cairo, x + (k * step - low) / (high - low) * width, y + 34, 13, VSC_INK, 0.5,
+                   text);
+  }
+  vsc_write_text(cairo, x + width / 2, y - 9, 14, VSC_INK, 0.5, title);
+}
+
+vsc_status vsc_write_png(cairo_surface_t *surface, const char *file, vsc_error *error)
+{
+  char part[4096];
+  snprintf(part, sizeof part, "%s.part", file);
+  const cairo_status_t status = cairo_surface_write_to_png(surface, part);
+  if (status != CAIRO_STATUS_SUCCESS)
+    return vsc_fail(error, VSC_SYSTEM, "%s: %s", file, cairo_status_to_string(status));
+  if (rename(part, file) != 0) return vsc_fail(error, VSC_SYSTEM, "%s: %s", file, strerror(errno));
+  return VSC_OK;
+}
