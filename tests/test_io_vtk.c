@@ -8,9 +8,9 @@
 #include "box_mesh.h"
 #include "close.h"
 #include "io/vtk.h"
-#include "write_tets.h"
 #include "mesh/surface.h"
 #include "scratch.h"
+#include "write_tets.h"
 
 static vsc_mesh *read_mesh(const char *path, double unit)
 {

@@ -44,6 +44,73 @@ static void shape_functions_are_what_they_should(void **state)
     }
 }
 
+// Corners of the reference elements.
+static const double REFERENCE[VSC_CELLS][8][3] = {
+    [VSC_TET] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+    [VSC_HEX] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                 {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}},
+    [VSC_WEDGE] = {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
+    [VSC_PYRAMID] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}}};
+
+// sum_i N_i X_i gives back the place, so that linear functions are met; a pyramid's coordinates
+// shrink towards its apex. Each function is 1 at its own corner and 0 at the others.
+static void linear_functions_are_met(void **state)
+{
+  (void)state;
+  uint64_t seed = 4;
+  double N[8], D[3][8];
+  for (int kind = 0; kind < VSC_CELLS; kind++) {
+    for (int round = 0; round < 50; round++) {
+      double xi[3], place[3] = {0};
+      random_point((vsc_cell)kind, &seed, xi);
+      vsc_cell_shape((vsc_cell)kind, xi, N, D);
+      for (int i = 0; i < vsc_cells[kind].corners; i++)
+        for (int k = 0; k < 3; k++) place[k] += N[i] * REFERENCE[kind][i][k];
+      for (int k = 0; k < 3; k++) {
+        const double shrunk = kind == VSC_PYRAMID && k < 2 ? 1 - xi[2] : 1;
+        assert_close(place[k], shrunk * xi[k], 0, 1e-15);
+      }
+    }
+    for (int i = 0; i < vsc_cells[kind].corners; i++) {
+      vsc_cell_shape((vsc_cell)kind, REFERENCE[kind][i], N, D);
+      for (int j = 0; j < 8; j++) assert_close(N[j], i == j, 0, 0);
+    }
+  }
+}
+
+// Faces turn counter-clockwise seen from outside, so that the reference volume comes out, which is
+// also the sum of the rule's weights (of the pyramid: 4/3, its weights being those of a box 2 x 2 x
+// 1); each edge lies on two faces, which run along it in opposite ways.
+static void faces_and_edges_fit(void **state)
+{
+  (void)state;
+  static const double volumes[VSC_CELLS] = {1. / 6, 8, 1, 4. / 3}, boxes[VSC_CELLS] = {1. / 6, 8, 1, 4};
+  for (int k = 0; k < VSC_CELLS; k++) {
+    const vsc_cell_kind *kind = &vsc_cells[k];
+    const vsc_cell_rule rule = vsc_cell_rule_of((vsc_cell)k);
+    int runs[8][8] = {{0}};
+    double volume = 0, weight = 0;
+    for (int f = 0; f < kind->face_count; f++) {
+      const int *v = kind->faces[f], corners = v[3] < 0 ? 3 : 4;
+      for (int i = 0; i < corners; i++) runs[v[i]][v[(i + 1) % corners]]++;
+      for (int cut = 0; cut < corners - 2; cut++)
+        volume += vsc_tet_volume((double[3]){0.1, 0.2, 0.3}, REFERENCE[k][v[0]],
+                                 REFERENCE[k][v[cut + 1]], REFERENCE[k][v[cut + 2]]);
+    }
+    for (int q = 0; q < rule.points; q++) weight += rule.weight[q];
+    assert_close(volume, volumes[k], 1e-15, 0);
+    assert_close(weight, boxes[k], 1e-15, 0);
+    int sides = 0;
+    for (int i = 0; i < 8; i++)
+      for (int j = 0; j < 8; j++) sides += runs[i][j];
+    assert_int_equal(sides, 2 * kind->edge_count);
+    for (int e = 0; e < kind->edge_count; e++) {
+      assert_int_equal(runs[kind->edges[e][0]][kind->edges[e][1]], 1);
+      assert_int_equal(runs[kind->edges[e][1]][kind->edges[e][0]], 1);
+    }
+  }
+}
+
 // Integral of grad N_i over a face's triangle, whose N are linear there: normal area / 3.
 static void add_flux(const double (*x)[3], int a, int b, int c, double weight, double (*flux)[3])
 {
@@ -165,6 +232,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(shape_functions_are_what_they_should),
+      cmocka_unit_test(linear_functions_are_met),
+      cmocka_unit_test(faces_and_edges_fit),
       cmocka_unit_test(rules_integrate_gradients_exactly),
       cmocka_unit_test(the_boundary_of_a_hybrid_mesh_closes),
       cmocka_unit_test(left_handed_elements_are_turned),

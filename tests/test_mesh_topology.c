@@ -5,6 +5,7 @@
 #include "base/vec3.h"
 #include "box_mesh.h"
 #include "close.h"
+#include "hybrid_mesh.h"
 #include "mesh/select.h"
 #include "mesh/topology.h"
 
@@ -89,6 +90,136 @@ static void overlapping_tets_are_counted(void **state)
   vsc_mesh_free(mesh);
 }
 
+static int compare_nodes(const void *a, const void *b)
+{
+  const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+  return (x > y) - (x < y);
+}
+
+// The nodes of a face in ascending order; of three the last one twice.
+static void face_nodes(const vsc_mesh *mesh, size_t element, int face, uint32_t nodes[4])
+{
+  const int *at = vsc_mesh_kind(mesh, element)->faces[face], corners = at[3] < 0 ? 3 : 4;
+  for (int i = 0; i < corners; i++) nodes[i] = vsc_mesh_corners(mesh, element)[at[i]];
+  qsort(nodes, (size_t)corners, sizeof *nodes, compare_nodes);
+  if (corners == 3) nodes[3] = nodes[2];
+}
+
+// All faces of all kinds against all others; every element at each of its nodes.
+static void neighbours_in_a_hybrid_mesh(void **state)
+{
+  (void)state;
+  vsc_mesh *mesh = hybrid_block(4, 0.1, 3);
+  vsc_topology topology;
+  assert_int_equal(vsc_topology_make(mesh, &topology, NULL), VSC_OK);
+  assert_int_equal(topology.crowded_faces, 0);
+  assert_int_equal(topology.node_start[mesh->node_count], mesh->start[mesh->element_count]);
+  for (size_t e = 0; e < mesh->element_count; e++) {
+    for (int i = 0; i < vsc_mesh_kind(mesh, e)->corners; i++) {
+      const uint32_t node = vsc_mesh_corners(mesh, e)[i];
+      size_t found = 0;
+      for (size_t k = topology.node_start[node]; k < topology.node_start[node + 1]; k++)
+        found += topology.node_elements[k] == e;
+      assert_int_equal(found, 1);
+    }
+    for (int f = 0; f < VSC_MOST_FACES; f++) {
+      int32_t expected = VSC_OUTSIDE;
+      uint32_t nodes[4], others[4];
+      if (f < vsc_mesh_kind(mesh, e)->face_count) face_nodes(mesh, e, f, nodes);
+      for (size_t o = 0; o < mesh->element_count && f < vsc_mesh_kind(mesh, e)->face_count; o++)
+        for (int g = 0; g < vsc_mesh_kind(mesh, o)->face_count && o != e; g++) {
+          face_nodes(mesh, o, g, others);
+          if (memcmp(nodes, others, sizeof nodes) == 0) expected = (int32_t)o;
+        }
+      assert_int_equal(topology.neighbours[e][f], expected);
+    }
+  }
+  vsc_topology_free(&topology);
+  vsc_mesh_free(mesh);
+}
+
+// A hexahedron, and a tet on three nodes of one of its faces.
+static void a_split_face_is_told(void **state)
+{
+  (void)state;
+  const uint8_t kinds[2] = {VSC_HEX, VSC_TET};
+  vsc_mesh *mesh = vsc_mesh_create_cells(9, 2, kinds, 0);
+  for (uint32_t i = 0; i < 8; i++) mesh->corners[i] = i;
+  const uint32_t tet[4] = {4, 6, 7, 8};
+  memcpy(mesh->corners + 8, tet, sizeof tet);
+  vsc_topology topology;
+  assert_int_equal(vsc_topology_make(mesh, &topology, NULL), VSC_OK);
+  for (int f = 0; f < VSC_MOST_FACES; f++) {
+    assert_int_equal(topology.neighbours[0][f], f == 5 ? VSC_SPLIT : VSC_OUTSIDE);
+    assert_int_equal(topology.neighbours[1][f], VSC_OUTSIDE);
+  }
+  vsc_topology_free(&topology);
+  vsc_mesh_free(mesh);
+}
+
+// All nodes shaken, the outer ones too: the boundary still closes. Whatever the corners' order, a
+// quadrilateral is cut through its smallest node.
+static void quadrilaterals_are_cut_through_their_smallest_node(void **state)
+{
+  (void)state;
+  uint64_t seed = 5;
+  vsc_mesh *mesh = hybrid_block(3, 0.1, 8);
+  for (size_t i = 0; i < 3 * mesh->node_count; i++)
+    mesh->nodes[i] += random_between(&seed, -0.1, 0.1);
+  vsc_surface boundary;
+  vsc_topology topology;
+  assert_int_equal(vsc_boundary(mesh, &boundary, NULL), VSC_OK);
+  assert_int_equal(vsc_topology_make(mesh, &topology, NULL), VSC_OK);
+  double sum[3] = {0};
+  for (size_t t = 0; t < boundary.count; t++) {
+    const uint32_t *node = boundary.triangles + 3 * t;
+    double ab[3], ac[3], normal[3];
+    vsc_subtract(mesh->nodes + 3 * (size_t)node[1], mesh->nodes + 3 * (size_t)node[0], ab);
+    vsc_subtract(mesh->nodes + 3 * (size_t)node[2], mesh->nodes + 3 * (size_t)node[0], ac);
+    vsc_cross(ab, ac, normal);
+    for (int k = 0; k < 3; k++) sum[k] += normal[k];
+  }
+  for (int k = 0; k < 3; k++) assert_close(sum[k], 0, 0, 1e-14);  // areas are about 1
+  const uint32_t *triangle = boundary.triangles;
+  for (size_t e = 0; e < mesh->element_count; e++)
+    for (int f = 0; f < vsc_mesh_kind(mesh, e)->face_count; f++) {
+      if (topology.neighbours[e][f] >= 0) continue;
+      uint32_t nodes[4];
+      face_nodes(mesh, e, f, nodes);
+      const int pieces = vsc_mesh_kind(mesh, e)->faces[f][3] < 0 ? 1 : 2;
+      for (int i = 0; i < pieces; i++, triangle += 3) {
+        int held = 0;
+        for (int k = 0; k < 3; k++)
+          for (int n = 0; n < 4; n++)
+            held += triangle[k] == nodes[n] && (n == 0 || nodes[n] != nodes[n - 1]);
+        assert_int_equal(held, 3);
+        if (pieces == 2) assert_int_equal(triangle[0], nodes[0]);
+      }
+    }
+  assert_ptr_equal(triangle, boundary.triangles + 3 * boundary.count);
+  vsc_surface_free(&boundary);
+  vsc_topology_free(&topology);
+  vsc_mesh_free(mesh);
+}
+
+static void a_surface_is_its_own_boundary(void **state)
+{
+  (void)state;
+  static const uint32_t triangles[6] = {0, 2, 1, 1, 3, 2};
+  vsc_mesh *mesh = vsc_mesh_create(4, 0, 2);
+  memcpy(mesh->triangles, triangles, sizeof triangles);
+  vsc_surface boundary;
+  assert_int_equal(vsc_boundary(mesh, &boundary, NULL), VSC_OK);
+  assert_int_equal(boundary.count, 2);
+  assert_memory_equal(boundary.triangles, triangles, sizeof triangles);
+  assert_string_equal(boundary.name, "boundary");
+  vsc_surface_free(&boundary);
+  vsc_alloc_fail_after(0);
+  assert_int_equal(vsc_boundary(mesh, &boundary, NULL), VSC_SYSTEM);
+  vsc_alloc_fail_after(-1);
+  vsc_mesh_free(mesh);
+}
+
 static void the_boundary_of_a_box_faces_outwards(void **state)
 {
   (void)state;
@@ -137,6 +268,10 @@ int main(void)
     cmocka_unit_test(every_tet_is_listed_at_its_nodes),
     cmocka_unit_test(neighbours_are_those_of_brute_force),
     cmocka_unit_test(overlapping_tets_are_counted),
+    cmocka_unit_test(neighbours_in_a_hybrid_mesh),
+    cmocka_unit_test(a_split_face_is_told),
+    cmocka_unit_test(quadrilaterals_are_cut_through_their_smallest_node),
+    cmocka_unit_test(a_surface_is_its_own_boundary),
     cmocka_unit_test(the_boundary_of_a_box_faces_outwards),
     cmocka_unit_test(short_memory_is_reported),
   };

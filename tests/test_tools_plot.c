@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `viscera plot` over the results of a simulation that never was.
 #include "close.h"
+#include "hybrid_mesh.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -378,6 +379,39 @@ static void test_the_cut_leaves_no_holes(void **state)
   vsc_mesh_free(mesh);
 }
 
+// Where the plane cuts a block of all kinds of elements, every pixel shows the cut.
+static void test_all_kinds_are_cut_without_holes(void **state)
+{
+  (void)state;
+  vsc_mesh *mesh = hybrid_block(3, 0.2, 11);
+  double *values;
+  assert_true(VSC_NEW(values, mesh->element_count));
+  for (int turn = 0; turn < 5; turn++) {
+    const double up[3] = {0, 0, 1}, from[3] = {sin(0.13 * turn), -cos(0.13 * turn), 0};
+    const vsc_camera camera = vsc_camera_make(mesh, up, from, false);
+    const double low[2] = {-2, -2};
+    vsc_raster *raster = vsc_raster_create(100, 100);
+    int checked = 0;
+    assert_non_null(raster);
+    assert_int_equal(vsc_view_draw(&camera, mesh, NULL, values, 1, low, 25, raster, NULL), VSC_OK);
+    for (int p = 0; p < 100 * 100; p++) {
+      const double x = low[0] + (p % 100 + 0.5) / 25, y = low[1] + (99.5 - p / 100) / 25;
+      const double height = y / vsc_dot(camera.up, camera.axis);
+      bool inside = true;
+      for (int k = 0; k < 3; k++)
+        inside &= fabs(x * camera.right[k] + height * camera.axis[k]) < 1.45;
+      if (!inside) continue;
+      assert_int_equal(raster->kind[p], VSC_KIND_CUT);
+      assert_close(raster->depth[p], height * vsc_dot(camera.into, camera.axis), 0, 1e-6);
+      checked++;
+    }
+    assert_true(checked > 4500);
+    vsc_raster_free(raster);
+  }
+  vsc_free(values);
+  vsc_mesh_free(mesh);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -388,6 +422,7 @@ int main(void)
       cmocka_unit_test(test_near_triangles_hide_far_ones),
       cmocka_unit_test(test_the_cut_shows_the_cavity),
       cmocka_unit_test(test_the_cut_leaves_no_holes),
+      cmocka_unit_test(test_all_kinds_are_cut_without_holes),
   };
   return cmocka_run_group_tests(tests, make_results, remove_results);
 }

@@ -20,7 +20,7 @@ static const double SAME_TIME = 1e-9;  // s
 // RMS = sqrt(sum d^2 / n), relative L2 = sqrt(sum d^2) / sqrt(sum b^2).
 typedef struct norms {
   char name[VSC_NAME];
-  const char *where;  // "points" or "elements"
+  const char *where;  // "points", "elements" or "triangles"
   double largest;     // max |d|
   double squares;     // sum d^2
   double reference;   // sum b^2
@@ -128,6 +128,12 @@ static bool same_corners(const vsc_mesh *a, const vsc_mesh *b)
          memcmp(a->corners, b->corners, a->start[elements] * sizeof *a->corners) == 0;
 }
 
+static bool same_triangles(const vsc_mesh *a, const vsc_mesh *b)
+{
+  return a->triangle_count == b->triangle_count &&
+         memcmp(a->triangles, b->triangles, 3 * a->triangle_count * sizeof *a->triangles) == 0;
+}
+
 static vsc_status add_meshes(comparison *all, const char *file_a, const char *file_b,
                              vsc_error *error)
 {
@@ -142,10 +148,15 @@ static vsc_status add_meshes(comparison *all, const char *file_a, const char *fi
                  file_a, a->node_count, a->element_count, file_b, b->node_count, b->element_count);
   if (status == VSC_OK && !same_corners(a, b))
     note(all, "elements", "joined to other points or in another order");
+  const bool triangles = status == VSC_OK && same_triangles(a, b);
+  if (status == VSC_OK && !triangles) note(all, "triangles", "not the same");
   if (status == VSC_OK)
     status = add(all, "(positions)", "points", 3 * a->node_count, a->nodes, b->nodes, error);
   if (status == VSC_OK) status = add_arrays(all, "points", &a->node_data, &b->node_data, error);
-  if (status == VSC_OK) status = add_arrays(all, "elements", &a->element_data, &b->element_data, error);
+  if (status == VSC_OK)
+    status = add_arrays(all, "elements", &a->element_data, &b->element_data, error);
+  if (status == VSC_OK && triangles)
+    status = add_arrays(all, "triangles", &a->triangle_data, &b->triangle_data, error);
   vsc_mesh_free(a);
   vsc_mesh_free(b);
   return status;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The program: `viscera VERB ...` goes to the verb's own file.
 #include <errno.h>
-#include <limits.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,6 +9,7 @@
 
 #include "base/status.h"
 #include "base/text.h"
+#include "tools/run_plot.h"
 #include "tools/verbs.h"
 
 typedef struct verb {
@@ -31,6 +31,8 @@ static const verb verbs[] = {
     {"schema", vsc_verb_schema, false, "print a commented template of everything a scene can say"},
     {"generate", vsc_verb_generate, false, "make the meshes and angle maps that ship with viscera"},
     {"bench", vsc_verb_bench, true, "how many element updates a second this machine does"},
+    {"calibrate", vsc_verb_calibrate, false,
+     "elastic constants of springs, springs of elastic constants"},
     {"plot", run_plot, false, "draw the graphs and pictures of a simulation's results"},
 };
 
@@ -71,25 +73,11 @@ static void restart_with_passive_threads(char **argv)
   // Without /proc the program runs all the same, only less politely.
 }
 
-// Graphs need PLplot and cairo, which a simulation should not load: `plot` is a program of its own
-// that lies beside this one, or in the PATH.
+// Graphs need PLplot and cairo, which a simulation should not load: `plot` is a program of its own.
 static int run_plot(int argc, char **argv)
 {
   (void)argc;
-  char path[PATH_MAX];
-  const ssize_t length = readlink("/proc/self/exe", path, sizeof path - sizeof "viscera-plot");
-  if (length > 0) {
-    path[length] = '\0';
-    strcpy(strrchr(path, '/') + 1, "viscera-plot");
-    execv(path, argv);
-  }
-  execvp("viscera-plot", argv);
-  fprintf(
-      stderr,
-      "viscera: the program viscera-plot can't be started (%s): it is built where PLplot and cairo "
-      "are installed, and belongs beside viscera or in the PATH\n",
-      strerror(errno));
-  return VSC_SYSTEM;
+  return vsc_become_plot(argv);
 }
 
 static const verb *find_verb(const char *name)

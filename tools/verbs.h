@@ -13,5 +13,6 @@ int vsc_verb_measure(int argc, char **argv);
 int vsc_verb_schema(int argc, char **argv);
 int vsc_verb_generate(int argc, char **argv);
 int vsc_verb_bench(int argc, char **argv);
+int vsc_verb_calibrate(int argc, char **argv);
 
 #endif

@@ -51,7 +51,7 @@ using owned_image = std::unique_ptr<vsc_image, decltype(&vsc_image_free)>;
 struct sorted_cells {
   std::vector<uint32_t> elements, surface;  // numbers of the cells: volumes; triangles and quads
   std::vector<uint8_t> kinds;               // of the elements: vsc_cell
-  std::map<int, size_t> others;           // VTK cell type: count
+  std::map<int, size_t> others;             // VTK cell type: count
 };
 
 std::string cell_kind(int type)
@@ -75,7 +75,8 @@ std::string describe_others(const sorted_cells &cells)
   return text;
 }
 
-// How VTK numbers the corners of what becomes an element here.
+// How VTK numbers the corners of what becomes an element here. Its wedges have their first triangle
+// on top (seen along the way in which its corners turn), ours below.
 struct corner_order {
   int type;
   vsc_cell kind;
@@ -87,7 +88,7 @@ const corner_order ELEMENT_TYPES[] = {
   {VTK_TETRA, VSC_TET, 4, {0, 1, 2, 3}},
   {VTK_HEXAHEDRON, VSC_HEX, 8, {0, 1, 2, 3, 4, 5, 6, 7}},
   {VTK_VOXEL, VSC_HEX, 8, {0, 1, 3, 2, 4, 5, 7, 6}},
-  {VTK_WEDGE, VSC_WEDGE, 6, {0, 1, 2, 3, 4, 5}},
+  {VTK_WEDGE, VSC_WEDGE, 6, {3, 4, 5, 0, 1, 2}},
   {VTK_PYRAMID, VSC_PYRAMID, 5, {0, 1, 2, 3, 4}},
 };
 
@@ -150,9 +151,10 @@ vsc_status copy_connectivity(const char *file, Array *offsets, Array *points,
     const vsc_status status =
       read_cell(file, start, numbers, mesh->node_count, cell, order, corner, error);
     if (status != VSC_OK) return status;
-    to = std::copy(corner, corner + 3, to);
-    if (order->count == 4)
-      for (const int i : {0, 2, 3}) *to++ = corner[i];
+    // a quad is cut as vsc_boundary cuts it
+    if (order->count == 4) std::rotate(corner, std::min_element(corner, corner + 4), corner + 4);
+    for (unsigned cut = 0; cut + 2 < order->count; cut++)
+      for (const unsigned i : {0u, cut + 1, cut + 2}) *to++ = corner[i];
   }
   return VSC_OK;
 }
@@ -225,7 +227,7 @@ vsc_status fill_mesh(const char *file, vtkUnstructuredGrid *grid, const sorted_c
   std::copy(cells.elements.begin(), cells.elements.end(), mesh->element_source);
   mesh->report.file_nodes = mesh->node_count;
   mesh->report.file_cells = count;
-  mesh->report.ignored_cells = count - mesh->element_count - mesh->triangle_count;
+  mesh->report.ignored_cells = count - cells.elements.size() - cells.surface.size();
   std::snprintf(mesh->report.ignored_kinds, sizeof mesh->report.ignored_kinds, "%s",
                 describe_others(cells).c_str());
   return vsc_mesh_clean(mesh, file, error);
@@ -236,8 +238,8 @@ vsc_status read_mesh(const char *file, double unit, vsc_mesh **mesh, vsc_error *
   vsc_status status = check_file(file, ".vtu", error);
   if (status != VSC_OK) return status;
   silence quiet;
-  static const char wanted[] = 
-    "an UnstructuredGrid is needed: mesh the organ's volume with tetrahedra";
+  static const char wanted[] =
+    "an UnstructuredGrid is needed: mesh the organ's volume";
   vtkSmartPointer<vtkDataObject> object;
   status = ends_with(file, ".vtk")
              ? read_legacy<vtkUnstructuredGridReader>(file, VTK_UNSTRUCTURED_GRID, wanted, quiet,

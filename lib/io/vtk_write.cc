@@ -78,7 +78,13 @@ vtkSmartPointer<vtkDataArray> make_real(const char *name, int components, size_t
            : make_array<vtkFloatArray>(name, components, before, given, tuples, values);
 }
 
-constexpr int CELL_TYPES[VSC_CELLS] = {VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE, VTK_PYRAMID};
+constexpr VTKCellType CELL_TYPES[VSC_CELLS] = {VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE, VTK_PYRAMID};
+
+// VTK's corner `i` of an element: a wedge's triangles are exchanged.
+uint32_t vtk_corner(const vsc_mesh *mesh, size_t element, size_t i)
+{
+  return vsc_mesh_corners(mesh, element)[mesh->kinds[element] == VSC_WEDGE ? (i + 3) % 6 : i];
+}
 
 // The elements followed by the triangles, as cells.
 template <typename Array> void set_cells(vtkUnstructuredGrid *grid, const vsc_mesh *mesh)
@@ -95,8 +101,11 @@ template <typename Array> void set_cells(vtkUnstructuredGrid *grid, const vsc_me
   for (size_t i = 0; i <= elements; i++) start[i] = (number)mesh->start[i];
   for (size_t i = 0; i < triangles; i++) start[elements + i + 1] = (number)(corners + 3 * (i + 1));
   for (size_t i = 0; i < elements + triangles; i++)
-    types->SetValue((vtkIdType)i, (unsigned char)(i < elements ? CELL_TYPES[mesh->kinds[i]] : VTK_TRIANGLE));
-  for (size_t i = 0; i < corners; i++) *point++ = (number)mesh->corners[i];
+    types->SetValue((vtkIdType)i, (unsigned char)(i < elements ? CELL_TYPES[mesh->kinds[i]]
+                                                               : VTK_TRIANGLE));
+  for (size_t e = 0; e < elements; e++)
+    for (size_t i = 0; i < mesh->start[e + 1] - mesh->start[e]; i++)
+      *point++ = (number)vtk_corner(mesh, e, i);
   for (size_t i = 0; i < 3 * triangles; i++) *point++ = (number)mesh->triangles[i];
   vtkNew<vtkCellArray> cells;
   cells->SetData(offsets, points);

@@ -213,8 +213,8 @@ static vsc_pack_energies bends(const vsc_model *model, const vsc_patch *patch, s
 {
   const vsc_bend_pack *pack = vsc_bends_of(model, patch) + (k - patch->first_pack);
   vsc_wide3 at[VSC_BEND_NODES], speed[VSC_BEND_NODES];
-  vsc_wide rates[3];
-  vsc_fold folds[3];
+  vsc_wide rates[VSC_BEND_FOLDS];
+  vsc_fold folds[VSC_BEND_FOLDS];
   corners_of(model, patch, pack->node, VSC_BEND_NODES, x, at);
   corners_of(model, patch, pack->node, VSC_BEND_NODES, v, speed);
   vsc_bend_folds(at, folds);

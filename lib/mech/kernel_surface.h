@@ -58,14 +58,14 @@ VSC_INLINE void bend_kernel(const vsc_patch_work *work, bool damping)
   const vsc_bend_pack *packs = work->packs;
   for (size_t k = 0; k < work->pack_count; k++) {
     vsc_wide3 x[VSC_BEND_NODES], f[VSC_BEND_NODES];
-    vsc_fold folds[3];
+    vsc_fold folds[VSC_BEND_FOLDS];
     for (int i = 0; i < VSC_BEND_NODES; i++) x[i] = gather_corner(packs[k].node[i], work->x);
     vsc_bend_folds(x, folds);
-    vsc_wide lead[3] = {vsc_splat(0), vsc_splat(0), vsc_splat(0)};
+    vsc_wide lead[VSC_BEND_FOLDS] = {vsc_splat(0)};
     if (damping) {
       for (int i = 0; i < VSC_BEND_NODES; i++) x[i] = gather_corner(packs[k].node[i], work->w);
       vsc_bend_rates(folds, x, lead);
-      for (int i = 0; i < 3; i++) lead[i] *= work->membrane->lag;
+      for (int j = 0; j < VSC_BEND_FOLDS; j++) lead[j] *= work->membrane->lag;
     }
     vsc_bend_forces(&packs[k].bends, folds, lead, f);
     for (int i = 0; i < VSC_BEND_NODES; i++) scatter_corner(packs[k].node[i], f[i], work->f);

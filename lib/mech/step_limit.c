@@ -211,16 +211,36 @@ static void add_triangle_stiffness(const vsc_model *model, const vsc_patch *patc
     }
 }
 
-// A bend's energy is at most tr(M) sum_i theta_i^2 / 2, to each edge of which all its four nodes
-// contribute.
+// |dm_k/dx_i|^2 summed over k, of four bends at rest: |m| <= sum_i of its roots times |x_i - rest|.
+static void moment_gradients(const vsc_bends *bends, const vsc_wide3 x[VSC_BEND_NODES],
+                             vsc_wide square[VSC_BEND_NODES])
+{
+  vsc_fold folds[VSC_BEND_FOLDS];
+  vsc_bend_folds(x, folds);
+  for (int i = 0; i < VSC_BEND_NODES; i++) square[i] = vsc_splat(0);
+  for (int k = 0; k < 3; k++) {
+    vsc_wide3 gradient[VSC_BEND_NODES] = {0};
+    for (int j = 0; j < VSC_BEND_FOLDS; j++) {
+      const vsc_fold *fold = &folds[j];
+      const int *node = vsc_bend_fold_nodes[j];
+      const vsc_wide G = fold->slope * bends->G[k][j];
+      const vsc_wide s_part[4] = {fold->s_l - 1, -fold->s_l, vsc_splat(1), vsc_splat(0)};
+      const vsc_wide r_part[4] = {fold->r_l - 1, -fold->r_l, vsc_splat(0), vsc_splat(1)};
+      for (int c = 0; c < 4; c++)
+        gradient[node[c]] = vsc_wide_combine(vsc_splat(1), gradient[node[c]], G * s_part[c],
+                                             fold->on_s, G * r_part[c], fold->on_r);
+    }
+    for (int i = 0; i < VSC_BEND_NODES; i++) square[i] += vsc_wide_dot(gradient[i], gradient[i]);
+  }
+}
+
 static void add_bend_stiffness(const vsc_model *model, const vsc_patch *patch, double *stiffness)
 {
   const vsc_bend_pack *packs = vsc_bends_of(model, patch);
   for (size_t k = 0; k < patch->pack_count; k++) {
     const vsc_bend_pack *pack = &packs[k];
-    const vsc_wide most = pack->bends.M[0][0] + pack->bends.M[1][1] + pack->bends.M[2][2];
     vsc_wide3 x[VSC_BEND_NODES];
-    vsc_fold folds[3];
+    vsc_wide square[VSC_BEND_NODES];
     for (int i = 0; i < VSC_BEND_NODES; i++)
       for (int l = 0; l < VSC_WIDTH; l++) {
         const double *at = model->rest + 4 * (size_t)vsc_node_of(model, patch, pack->node[i][l]);
@@ -228,21 +248,10 @@ static void add_bend_stiffness(const vsc_model *model, const vsc_patch *patch, d
         x[i].y[l] = at[1];
         x[i].z[l] = at[2];
       }
-    vsc_bend_folds(x, folds);
-    for (int i = 0; i < 3; i++) {
-      const vsc_fold *fold = &folds[i];
-      const int nodes[4] = {i, (i + 1) % 3, (i + 2) % 3, 3 + i};
-      const vsc_wide3 gradient[4] = {
-          vsc_wide_add(vsc_wide_scale(fold->s_l - 1, fold->on_s), vsc_wide_scale(fold->r_l - 1, fold->on_r)),
-          vsc_wide_add(vsc_wide_scale(-fold->s_l, fold->on_s), vsc_wide_scale(-fold->r_l, fold->on_r)),
-          fold->on_s, fold->on_r};
-      const vsc_wide_mask bends = pack->bends.M[i][i] > 0;
-      for (int c = 0; c < 4; c++) {
-        const vsc_wide part = vsc_where(bends, most * vsc_wide_dot(gradient[c], gradient[c]));
-        for (int l = 0; l < VSC_WIDTH; l++)
-          stiffness[vsc_node_of(model, patch, pack->node[nodes[c]][l])] += part[l];
-      }
-    }
+    moment_gradients(&pack->bends, x, square);
+    for (int i = 0; i < VSC_BEND_NODES; i++)
+      for (int l = 0; l < VSC_WIDTH; l++)
+        stiffness[vsc_node_of(model, patch, pack->node[i][l])] += square[i][l];
   }
 }
 
@@ -260,7 +269,8 @@ static bool is_taken(const vsc_model *model, const vsc_patch *patch, size_t slot
 {
   const size_t k = slot / VSC_WIDTH - patch->first_pack, l = slot % VSC_WIDTH;
   if (patch->family == VSC_TRIANGLES) return vsc_triangles_of(model, patch)[k].V[l] > 0;
-  if (patch->family == VSC_BENDS) return vsc_bends_of(model, patch)[k].node[1][l] != vsc_bends_of(model, patch)[k].node[0][l];
+  if (patch->family == VSC_BENDS)
+    return vsc_bends_of(model, patch)[k].node[1][l] != vsc_bends_of(model, patch)[k].node[0][l];
   return model->mesh_element[slot] != VSC_NO_ELEMENT;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The kinds of elements: corners, faces, edges, shape functions and the points at which they are
-// integrated. Corners are numbered as VTK numbers them, so that the reference element is
-// right-handed: a hexahedron has 0 1 2 3 round the bottom and 4 5 6 7 above them, a wedge 0 1 2
-// below 3 4 5, a pyramid 0 1 2 3 round the bottom and 4 on top.
+// integrated. Corners are numbered so that the reference element is right-handed, which is VTK's
+// way but for wedges (vtk.h): a hexahedron has 0 1 2 3 round the bottom and 4 5 6 7 above them, a
+// wedge 0 1 2 below 3 4 5, a pyramid 0 1 2 3 round the bottom and 4 on top.
 #ifndef VSC_MESH_CELL_H
 #define VSC_MESH_CELL_H
 
@@ -33,7 +33,7 @@ extern const vsc_cell_kind vsc_cells[VSC_CELLS];
 // different kinds.
 typedef struct vsc_cell_rule {
   int points;
-  double weight[VSC_MOST_POINTS];  // sums to the volume of the reference element
+  double weight[VSC_MOST_POINTS];  // sums to the volume that xi runs through
   double N[VSC_MOST_POINTS][VSC_MOST_CORNERS];      // shape functions
   double D[VSC_MOST_POINTS][3][VSC_MOST_CORNERS];   // d N_i / d xi_k
 } vsc_cell_rule;

@@ -44,7 +44,7 @@ static const char *spell(const culprits *list, char *text, size_t size)
   return text;
 }
 
-// Refuses the mesh for the culprits, if there are any: "mesh.vtu: 3 wedges `fault` (cells 1, 2, 7):
+// Refuses the mesh for the culprits, if there are any: "mesh.vtu: `fault` 3 wedges (cells 1, 2, 7):
 // `remedy`".
 static vsc_status refuse(const culprits *list, const char *name, const char *fault,
                          const char *remedy, vsc_error *error)
@@ -52,7 +52,7 @@ static vsc_status refuse(const culprits *list, const char *name, const char *fau
   char ids[160], kinds[160];
   if (list->count == 0) return VSC_OK;
   vsc_spell_kinds(list->kinds, kinds, sizeof kinds);
-  return vsc_fail(error, VSC_INPUT, "%s: %s %s (cells %s): %s", name, kinds, fault,
+  return vsc_fail(error, VSC_INPUT, "%s: %s %s (cells %s): %s", name, fault, kinds,
                   spell(list, ids, sizeof ids), remedy);
 }
 
@@ -66,7 +66,7 @@ static vsc_status check_numbers(const vsc_mesh *mesh, const char *name, vsc_erro
         blame_element(&elements, mesh, e);
         break;
       }
-  snprintf(text, sizeof text, "name points that are not among the %zu of the mesh",
+  snprintf(text, sizeof text, "points that are not among the %zu of the mesh are named by",
            mesh->node_count);
   const vsc_status status = refuse(&elements, name, text,
                                    "point numbers count from 0, write the mesh again", error);
@@ -142,11 +142,11 @@ static vsc_status check_elements(const vsc_mesh *mesh, const char *name, vsc_err
     const double relative = fabs(vsc_mesh_element_volume(mesh, e)) / edge / edge / edge;
     if (!(relative >= DEGENERATE)) blame_element(&flat, mesh, e);
   }
-  const vsc_status status = refuse(&repeated, name, "name the same point twice",
+  const vsc_status status = refuse(&repeated, name, "the same point twice in",
                                    "remove them or mesh again", error);
   if (status != VSC_OK) return status;
   return refuse(&flat, name,
-                "are degenerate, their volume is below 1e-12 of the longest edge cubed",
+                "degenerate, with a volume below 1e-12 of the longest edge cubed:",
                 "remove them or mesh again", error);
 }
 
@@ -195,7 +195,7 @@ static vsc_status check_jacobians(const vsc_mesh *mesh, const char *name, vsc_er
     if (!sound) blame_element(&folded, mesh, e);
   }
   return refuse(&folded, name,
-                "are folded, their Jacobian is not positive at one of the integration points",
+                "folded, with a Jacobian that is not positive at an integration point:",
                 "check the order of their points, or mesh again", error);
 }
 
@@ -215,8 +215,7 @@ static vsc_status check_conforming(const vsc_mesh *mesh, const char *name, vsc_e
       }
   vsc_topology_free(&topology);
   return refuse(&split, name,
-                "have a quadrilateral face where another element has triangles, which does not "
-                "conform",
+                "not conforming, with triangles of other elements on a quadrilateral face:",
                 "put pyramids between quadrilaterals and tetrahedra, or mesh again", error);
 }
 

@@ -1,41 +1,47 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bending of a sheet of triangles. A bend is a triangle with its three neighbours: six nodes, three
-// dihedral angles theta_i over its edges (0 where the sheet is flat, positive where it curves
-// towards the triangle's normal). Its energy is a quadratic form of the three together,
+// Bending of a sheet of triangles. Over each edge between two triangles there is a dihedral angle
+// theta (0 where the sheet is flat, positive where it curves towards the normal). A bend is a
+// triangle with its three neighbours and theirs: twelve nodes, nine folds. It stores
 //
-//   psi = sum_ij M_ij (phi_i - phi_i0) (phi_j - phi_j0) / 2   (uJ),   phi = 2 sin(theta / 2)
+//   psi = |m|^2 / 2,   m_k = sum_j G_kj (phi_j - phi_j0), k = 1, 2, 3   (uJ),   phi = 2 sin(theta/2)
 //
-// since one angle for itself cannot tell in which direction the sheet is curved: a sum over edges of
+// that is, the plate's energy of the curvature that its folds tell of (vsc_bend_stiffness makes G).
+// One fold for itself cannot tell in which direction a sheet is curved: a sum over edges of
 // (1/2) k_e theta_e^2 resists a given curvature by up to three times more in one direction than in
-// another, whatever k_e is. M comes from the plate's energy (vsc_bend_stiffness): any constant
-// curvature of a flat sheet of any triangles costs exactly what the plate's does.
+// another, whatever k_e is.
 //
 // phi is theta to third order, needs no trigonometry, and stays smooth and bounded up to
 // theta = pi, where the two triangles lie on one another and the moment dpsi/dtheta vanishes.
-// With n = (x_1 - x_0) x (x_2 - x_0) of the triangle, m = (p - q) x (r - q) of the neighbour across
-// the edge from p to q, l = |q - p|, s the triangle's third node and r the neighbour's:
+// With n = (q - p) x (s - p) of the triangle with corners p, q, s, and m = (r - p) x (q - p) of its
+// neighbour p, r, q across the edge from p to q, l = |q - p|:
 //
 //   cos theta = n.m/(|n||m|),  sin theta = n.(r - p) l/(|n||m|)
 //   dtheta/dr = m l/|m|^2,  dtheta/ds = n l/|n|^2,
 //   dtheta/dp = -(1 - s_l) dtheta/ds - (1 - r_l) dtheta/dr,  dtheta/dq = -s_l dtheta/ds - r_l dtheta/dr
 //
-// Damping of the same material adds tau sum_j M_ij dphi_j/dt to dpsi/dphi_i, tau (ms) its viscosity
-// over its modulus. Here s_l, r_l = (s - p).(q - p)/l^2, (r - p).(q - p)/l^2.
+// with s_l, r_l = (s - p).(q - p)/l^2, (r - p).(q - p)/l^2. Damping of the same material makes
+// phi lead by tau dphi/dt, tau (ms) its viscosity over its modulus.
 #ifndef VSC_MODEL_LAW_BENDING_H
 #define VSC_MODEL_LAW_BENDING_H
 
 #include "base/wide.h"
 
-enum { VSC_BEND_NODES = 6 };  // 0 1 2 the triangle; 3 + i: across the edge from node i to i + 1
+// Nodes 0 1 2 are the triangle; 3 + i lies across its edge from i to i + 1, and beyond that
+// neighbour's other edges lie 6 + 2 i (across i, 3 + i) and 7 + 2 i (across 3 + i, i + 1).
+enum { VSC_BEND_NODES = 12, VSC_BEND_FOLDS = 9 };
 
-// Four bends at rest. Where there is no neighbour the edge bends freely: its row of M is 0 and its
-// node may be any.
+// p, q, s, r of each fold.
+static const int vsc_bend_fold_nodes[VSC_BEND_FOLDS][4] = {
+    {0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5}, {0, 3, 1, 6},  {3, 1, 0, 7},
+    {1, 4, 2, 8}, {4, 2, 1, 9}, {2, 5, 0, 10}, {5, 0, 2, 11}};
+
+// Four bends at rest. Where there is no neighbour the column of G is 0, and the node any.
 typedef struct vsc_bends {
-  vsc_wide M[3][3];  // symmetric, uJ
-  vsc_wide rest[3];  // phi_i0
+  vsc_wide G[3][VSC_BEND_FOLDS];  // uJ^(1/2)
+  vsc_wide rest[VSC_BEND_FOLDS];  // phi_j0
 } vsc_bends;
 
-// One edge of four bends.
+// One fold of four bends.
 typedef struct vsc_fold {
   vsc_wide phi;     // 2 sin(theta/2)
   vsc_wide slope;   // dphi/dtheta = cos(theta/2)
@@ -78,69 +84,76 @@ VSC_INLINE vsc_fold vsc_fold_of(vsc_wide3 p, vsc_wide3 q, vsc_wide3 s, vsc_wide3
   return fold;
 }
 
-// The three folds of bends with nodes x.
-VSC_INLINE void vsc_bend_folds(const vsc_wide3 x[VSC_BEND_NODES], vsc_fold folds[3])
+VSC_INLINE void vsc_bend_folds(const vsc_wide3 x[VSC_BEND_NODES], vsc_fold folds[VSC_BEND_FOLDS])
 {
-  for (int i = 0; i < 3; i++)
-    folds[i] = vsc_fold_of(x[i], x[(i + 1) % 3], x[(i + 2) % 3], x[3 + i]);
+  for (int j = 0; j < VSC_BEND_FOLDS; j++) {
+    const int *node = vsc_bend_fold_nodes[j];
+    folds[j] = vsc_fold_of(x[node[0]], x[node[1]], x[node[2]], x[node[3]]);
+  }
 }
 
-// dphi_i/dt of bends whose nodes have velocities v, 1/ms.
-VSC_INLINE void vsc_bend_rates(const vsc_fold folds[3], const vsc_wide3 v[VSC_BEND_NODES],
-                               vsc_wide rates[3])
+// dphi_j/dt of bends whose nodes have velocities v, 1/ms.
+VSC_INLINE void vsc_bend_rates(const vsc_fold folds[VSC_BEND_FOLDS],
+                               const vsc_wide3 v[VSC_BEND_NODES], vsc_wide rates[VSC_BEND_FOLDS])
 {
-  for (int i = 0; i < 3; i++) {
-    const vsc_fold *fold = &folds[i];
-    const vsc_wide3 p = v[i], edge = vsc_wide_minus(v[(i + 1) % 3], p);
-    const vsc_wide3 s = vsc_wide_minus(v[(i + 2) % 3], p), r = vsc_wide_minus(v[3 + i], p);
-    rates[i] = fold->slope * (vsc_wide_dot(fold->on_s, s) + vsc_wide_dot(fold->on_r, r) -
+  for (int j = 0; j < VSC_BEND_FOLDS; j++) {
+    const int *node = vsc_bend_fold_nodes[j];
+    const vsc_fold *fold = &folds[j];
+    const vsc_wide3 p = v[node[0]], edge = vsc_wide_minus(v[node[1]], p);
+    const vsc_wide3 s = vsc_wide_minus(v[node[2]], p), r = vsc_wide_minus(v[node[3]], p);
+    rates[j] = fold->slope * (vsc_wide_dot(fold->on_s, s) + vsc_wide_dot(fold->on_r, r) -
                               fold->s_l * vsc_wide_dot(fold->on_s, edge) -
                               fold->r_l * vsc_wide_dot(fold->on_r, edge));
   }
 }
 
-// sum_j M_ij change_j
-VSC_INLINE void vsc_bend_moments(const vsc_bends *bends, const vsc_wide change[3], vsc_wide moment[3])
+// m_k = sum_j G_kj change_j
+VSC_INLINE void vsc_bend_moments(const vsc_bends *bends, const vsc_wide change[VSC_BEND_FOLDS],
+                                 vsc_wide moment[3])
 {
-  for (int i = 0; i < 3; i++)
-    moment[i] = bends->M[i][0] * change[0] + bends->M[i][1] * change[1] + bends->M[i][2] * change[2];
+  for (int k = 0; k < 3; k++) {
+    moment[k] = vsc_splat(0);
+    for (int j = 0; j < VSC_BEND_FOLDS; j++) moment[k] += bends->G[k][j] * change[j];
+  }
 }
 
-// sum_ij M_ij change_i change_j: twice the energy of phi - phi_0, or over the time of damping the
-// power of dphi/dt.
-VSC_INLINE vsc_wide vsc_bend_square(const vsc_bends *bends, const vsc_wide change[3])
+// |m|^2 of a change: twice the energy of phi - phi_0, or over tau the power of dphi/dt.
+VSC_INLINE vsc_wide vsc_bend_square(const vsc_bends *bends, const vsc_wide change[VSC_BEND_FOLDS])
 {
-  vsc_wide moment[3];
-  vsc_bend_moments(bends, change, moment);
-  return moment[0] * change[0] + moment[1] * change[1] + moment[2] * change[2];
+  vsc_wide m[3];
+  vsc_bend_moments(bends, change, m);
+  return m[0] * m[0] + m[1] * m[1] + m[2] * m[2];
 }
 
-VSC_INLINE vsc_wide vsc_bend_energy(const vsc_bends *bends, const vsc_fold folds[3])
+VSC_INLINE vsc_wide vsc_bend_energy(const vsc_bends *bends, const vsc_fold folds[VSC_BEND_FOLDS])
 {
-  vsc_wide change[3];
-  for (int i = 0; i < 3; i++) change[i] = folds[i].phi - bends->rest[i];
+  vsc_wide change[VSC_BEND_FOLDS];
+  for (int j = 0; j < VSC_BEND_FOLDS; j++) change[j] = folds[j].phi - bends->rest[j];
   return 0.5 * vsc_bend_square(bends, change);
 }
 
-// f = -dpsi/dx on the six nodes, mN. `lead[i]` is added to phi_i: damping.
-VSC_INLINE void vsc_bend_forces(const vsc_bends *bends, const vsc_fold folds[3],
-                                const vsc_wide lead[3], vsc_wide3 f[VSC_BEND_NODES])
+// f = -dpsi/dx on the nodes, mN. `lead[j]` is added to phi_j: damping.
+VSC_INLINE void vsc_bend_forces(const vsc_bends *bends, const vsc_fold folds[VSC_BEND_FOLDS],
+                                const vsc_wide lead[VSC_BEND_FOLDS], vsc_wide3 f[VSC_BEND_NODES])
 {
-  vsc_wide change[3], moment[3];
-  for (int i = 0; i < 3; i++) change[i] = folds[i].phi - bends->rest[i] + lead[i];
-  vsc_bend_moments(bends, change, moment);
-  for (int i = 0; i < 3; i++) f[i] = (vsc_wide3){vsc_splat(0), vsc_splat(0), vsc_splat(0)};
-  for (int i = 0; i < 3; i++) {
-    const vsc_fold *fold = &folds[i];
-    const int q = (i + 1) % 3, s = (i + 2) % 3;
-    const vsc_wide torque = moment[i] * fold->slope;
+  vsc_wide change[VSC_BEND_FOLDS], m[3];
+  for (int j = 0; j < VSC_BEND_FOLDS; j++) change[j] = folds[j].phi - bends->rest[j] + lead[j];
+  vsc_bend_moments(bends, change, m);
+  for (int i = 0; i < VSC_BEND_NODES; i++)
+    f[i] = (vsc_wide3){vsc_splat(0), vsc_splat(0), vsc_splat(0)};
+  for (int j = 0; j < VSC_BEND_FOLDS; j++) {
+    const vsc_fold *fold = &folds[j];
+    const int *node = vsc_bend_fold_nodes[j];
+    const vsc_wide torque =
+        fold->slope * (bends->G[0][j] * m[0] + bends->G[1][j] * m[1] + bends->G[2][j] * m[2]);
     const vsc_wide3 on_s = vsc_wide_scale(-torque, fold->on_s);
     const vsc_wide3 on_r = vsc_wide_scale(-torque, fold->on_r);
     const vsc_wide one = vsc_splat(1);
-    f[s] = vsc_wide_add(f[s], on_s);
-    f[3 + i] = on_r;
-    f[i] = vsc_wide_combine(one, f[i], fold->s_l - 1.0, on_s, fold->r_l - 1.0, on_r);
-    f[q] = vsc_wide_combine(one, f[q], -fold->s_l, on_s, -fold->r_l, on_r);
+    vsc_wide3 *p = &f[node[0]], *q = &f[node[1]], *s = &f[node[2]], *r = &f[node[3]];
+    *s = vsc_wide_add(*s, on_s);
+    *r = vsc_wide_add(*r, on_r);
+    *p = vsc_wide_combine(one, *p, fold->s_l - 1.0, on_s, fold->r_l - 1.0, on_r);
+    *q = vsc_wide_combine(one, *q, -fold->s_l, on_s, -fold->r_l, on_r);
   }
 }
 

@@ -39,7 +39,7 @@ typedef struct vsc_triangle_pack {
   uint16_t node[3][VSC_WIDTH];
 } vsc_triangle_pack;
 
-// Four bends (model/law_bending.h). Empty places have M = 0.
+// Four bends (model/law_bending.h). Empty places have G = 0.
 typedef struct vsc_bend_pack {
   vsc_bends bends;
   uint16_t node[VSC_BEND_NODES][VSC_WIDTH];

@@ -111,9 +111,9 @@ static void fill_bend(const filling *fill, const vsc_sheet *sheet, uint32_t tria
                       int lane)
 {
   vsc_bend_pack *pack = (vsc_bend_pack *)at(fill, fill->patch->packs) + index;
-  for (int i = 0; i < 3; i++) {
-    pack->bends.rest[i][lane] = sheet->fold[triangle][i];
-    for (int j = 0; j < 3; j++) pack->bends.M[i][j][lane] = sheet->M[triangle][i][j];
+  for (int j = 0; j < VSC_BEND_FOLDS; j++) {
+    pack->bends.rest[j][lane] = sheet->fold[triangle][j];
+    for (int i = 0; i < 3; i++) pack->bends.G[i][j][lane] = sheet->G[triangle][i][j];
   }
   for (int i = 0; i < VSC_BEND_NODES; i++)
     pack->node[i][lane] = (uint16_t)fill->local[sheet->nodes[triangle][i]];

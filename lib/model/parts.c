@@ -131,7 +131,7 @@ static void add_sheet(vsc_parts *parts, uint32_t membrane)
   const uint32_t group = first_of_membranes(parts) + 2 * membrane;
   for (uint32_t t = 0; t < sheet->count; t++) {
     add_part(parts, group, t, sheet->nodes[t], 3);
-    if (sheet->M != NULL) add_part(parts, group + 1, t, sheet->nodes[t], VSC_BEND_NODES);
+    if (sheet->G != NULL) add_part(parts, group + 1, t, sheet->nodes[t], VSC_BEND_NODES);
   }
 }
 
@@ -146,8 +146,8 @@ vsc_status vsc_parts_list(const vsc_mesh *mesh, const uint32_t *material_of, con
   const size_t elements = mesh->element_count;
   size_t count = elements + springs.count, nodes = mesh->start[elements] + 2 * springs.count;
   for (size_t m = 0; m < model->membrane_count; m++) {
-    count += sheets[m].count * (sheets[m].M != NULL ? 2 : 1);
-    nodes += sheets[m].count * (sheets[m].M != NULL ? 3 + VSC_BEND_NODES : 3);
+    count += sheets[m].count * (sheets[m].G != NULL ? 2 : 1);
+    nodes += sheets[m].count * (sheets[m].G != NULL ? 3 + VSC_BEND_NODES : 3);
   }
   if (status == VSC_OK &&
       (!VSC_NEW(parts->group, count) || !VSC_NEW(parts->source, count) ||

@@ -11,6 +11,7 @@
 #include "io/pvd.h"
 #include "io/vtk.h"
 #include "tools/plot/page.h"
+#include "tools/plot/polar.h"
 #include "tools/plot/several.h"
 
 enum { PATH = 4096 };
@@ -211,6 +212,7 @@ static vsc_status read_option(int option, request *wish, vsc_error *error)
 
 int main(int argc, char **argv)
 {
+  if (argc == 5 && strcmp(argv[1], "--polar") == 0) return vsc_polar_draw(argv[2], argv[4]);
   static const struct option options[] = {
       {"output", required_argument, NULL, 'o'}, {"at", required_argument, NULL, 't'},
       {"axis", required_argument, NULL, 'a'},   {"from", required_argument, NULL, 'f'},

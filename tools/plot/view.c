@@ -7,6 +7,7 @@
 #include "base/mem.h"
 #include "base/vec3.h"
 #include "mesh/select.h"
+#include "mesh/split.h"
 
 static const double RAISED = 0.31;      // the camera's elevation, radians
 static const double CREASE = 0.64;      // cosine of the angle from which an edge is drawn sharp
@@ -168,16 +169,17 @@ static void turn(const vsc_camera *camera, const double direction[3], double see
   seen[2] = vsc_dot(direction, camera->into);
 }
 
-// Mean of the tets' values at each node.
+// Mean of the elements' values at each node.
 static vsc_status average_to_nodes(const vsc_mesh *mesh, const double *values, vsc_vertex *nodes,
                                    vsc_error *error)
 {
   double *count;
   if (!VSC_NEW(count, mesh->node_count)) return vsc_fail_memory(error, "a picture");
-  for (size_t c = 0; c < 4 * mesh->element_count; c++) {
-    nodes[mesh->corners[c]].value += values[c / 4];
-    count[mesh->corners[c]]++;
-  }
+  for (size_t e = 0; e < mesh->element_count; e++)
+    for (size_t c = mesh->start[e]; c < mesh->start[e + 1]; c++) {
+      nodes[mesh->corners[c]].value += values[e];
+      count[mesh->corners[c]]++;
+    }
   for (size_t i = 0; i < mesh->node_count; i++) nodes[i].value /= fmax(count[i], 1);
   vsc_free(count);
   return VSC_OK;
@@ -342,7 +344,11 @@ vsc_status vsc_view_draw(const vsc_camera *camera, const vsc_mesh *mesh, const d
     status = draw_boundary(&s, displacement, error);
   }
   if (status == VSC_OK) {
-    for (size_t t = 0; t < mesh->element_count; t++) draw_cut(&s, mesh->corners + 4 * t);
+    for (size_t e = 0; e < mesh->element_count; e++) {
+      uint32_t tets[VSC_MOST_TETS][4];
+      const int count = vsc_mesh_split(mesh, e, tets);
+      for (int t = 0; t < count; t++) draw_cut(&s, tets[t]);
+    }
     vsc_raster_outline(raster, 4);
   }
   vsc_free(s.nodes);

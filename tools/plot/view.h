@@ -34,7 +34,7 @@ void vsc_camera_extend(const vsc_camera *camera, const vsc_mesh *mesh, const dou
 void vsc_view_colour(double share, double colour[3]);
 
 // Draws the mesh, moved by `displacement` (node_count x 3, mm; NULL: at rest), coloured by
-// `values` (one per tet, averaged to the nodes; NULL: 0) as shares of `largest`. `low` (mm) is the
+// `values` (one per element, averaged to the nodes; NULL: 0) as shares of `largest`. `low` (mm) is the
 // picture's lower left corner, `scale` its pixels per mm.
 vsc_status vsc_view_draw(const vsc_camera *camera, const vsc_mesh *mesh, const double *displacement,
                          const double *values, double largest, const double low[2], double scale,
