@@ -33,7 +33,8 @@ static inline vsc_mesh *sheet_mesh(size_t nx, size_t ny, double hx, double hy, s
     }
   for (size_t j = 0; j < ny; j++)
     for (size_t i = 0; i < nx; i++) {
-      const uint32_t a = (uint32_t)(j * (nx + 1) + i), b = a + 1, c = b + (uint32_t)nx + 1, d = c - 1;
+      const uint32_t a = (uint32_t)(j * (nx + 1) + i), b = a + 1, c = b + (uint32_t)nx + 1,
+                     d = c - 1;
       const bool other = cut == CUT_LEANING || (cut == CUT_BY_TURNS && (i + j) % 2 == 1);
       const uint32_t corners[2][6] = {{a, b, c, a, c, d}, {a, b, d, b, c, d}};
       for (int k = 0; k < 6; k++) mesh->triangles[6 * (j * nx + i) + (size_t)k] = corners[other][k];
@@ -44,7 +45,8 @@ static inline vsc_mesh *sheet_mesh(size_t nx, size_t ny, double hx, double hy, s
 // All triangles of a mesh, borrowed.
 static inline vsc_surface all_triangles(const vsc_mesh *mesh)
 {
-  return (vsc_surface){.name = "boundary", .count = mesh->triangle_count, .triangles = mesh->triangles};
+  return (vsc_surface){
+      .name = "boundary", .count = mesh->triangle_count, .triangles = mesh->triangles};
 }
 
 #endif

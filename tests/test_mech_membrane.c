@@ -69,7 +69,8 @@ static double stored(small_body *body, vsc_totals *totals)
   assert_int_equal(vsc_ledger_create(body->model, &ledger, NULL), VSC_OK);
   vsc_observe(body->model, body->state, ledger, false, totals);
   vsc_ledger_free(ledger);
-  return totals->axial + totals->angular + totals->volume_energy + totals->membrane + totals->bending;
+  return totals->axial + totals->angular + totals->volume_energy + totals->membrane +
+         totals->bending;
 }
 
 static double energy_at(small_body *body, const double *x0, const double *d, double h)
@@ -312,17 +313,20 @@ static void what_nothing_holds_is_refused(void **state)
   vsc_error error;
   open_sheet(&body, &membrane);
   vsc_copy_name(body.sets[0].name, "half");
-  body.sets[0] = (vsc_selector){.kind = VSC_SELECT_BOX, .box_low = {-1, -1, -9}, .box_high = {5, 99, 9}};
+  body.sets[0] =
+      (vsc_selector){.kind = VSC_SELECT_BOX, .box_low = {-1, -1, -9}, .box_high = {5, 99, 9}};
   vsc_copy_name(body.sets[0].name, "half");
   body.definition.surfaces = body.sets;
   body.definition.surface_count = 1;
   vsc_copy_name(membrane.surface, "half");
-  assert_int_equal(vsc_model_build(body.mesh, NULL, &body.definition, &body.model, &error), VSC_INPUT);
+  assert_int_equal(vsc_model_build(body.mesh, NULL, &body.definition, &body.model, &error),
+                   VSC_INPUT);
   assert_non_null(strstr(error.text, "belongs to no membrane"));
   body_close(&body);
   open_block(&body, &membrane);
   vsc_copy_name(membrane.surface, "triangles");
-  assert_int_equal(vsc_model_build(body.mesh, NULL, &body.definition, &body.model, &error), VSC_INPUT);
+  assert_int_equal(vsc_model_build(body.mesh, NULL, &body.definition, &body.model, &error),
+                   VSC_INPUT);
   assert_non_null(strstr(error.text, "has no triangles"));
   body_close(&body);
 }

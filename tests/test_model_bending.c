@@ -14,9 +14,10 @@
 enum { N = VSC_BEND_NODES, FOLDS = VSC_BEND_FOLDS };
 
 // A triangle with its neighbours and theirs, far from flat and from regular.
-static const double bent[N][3] = {
-    {0, 0, 0},      {2, 0.2, 0.1},     {0.7, 1.6, -0.2}, {1.1, -1.4, 0.6}, {2.3, 1.7, 1},   {-0.9, 1.1, -0.5},
-    {-0.3, -1, 0.8}, {2.5, -1.1, 0.2}, {3.2, 0.9, 0.4},  {1.6, 2.6, 0.3}, {-0.3, 2.4, 0.5}, {-1.2, -0.1, 0.1}};
+static const double bent[N][3] = {{0, 0, 0},        {2, 0.2, 0.1},    {0.7, 1.6, -0.2},
+                                  {1.1, -1.4, 0.6}, {2.3, 1.7, 1},    {-0.9, 1.1, -0.5},
+                                  {-0.3, -1, 0.8},  {2.5, -1.1, 0.2}, {3.2, 0.9, 0.4},
+                                  {1.6, 2.6, 0.3},  {-0.3, 2.4, 0.5}, {-1.2, -0.1, 0.1}};
 
 static vsc_bends bends_of(const double G[3][FOLDS], const double rest[FOLDS])
 {
@@ -289,7 +290,8 @@ static void curve_sheet(const vsc_mesh *mesh, const double k[3], double *x)
     const double *flat = mesh->nodes + 3 * n;
     x[3 * n] = flat[0];
     x[3 * n + 1] = flat[1];
-    x[3 * n + 2] = (k[0] * flat[0] * flat[0] + 2 * k[1] * flat[0] * flat[1] + k[2] * flat[1] * flat[1]) / 2;
+    x[3 * n + 2] =
+        (k[0] * flat[0] * flat[0] + 2 * k[1] * flat[0] * flat[1] + k[2] * flat[1] * flat[1]) / 2;
   }
 }
 
@@ -314,7 +316,8 @@ static void any_sheet_bends_like_the_plate(void **state)
   for (size_t s = 0; s < sizeof sheets / sizeof *sheets; s++) {
     const double D = 2.5, nu = 0.3;
     const vsc_membrane_def def = plate(D, nu);
-    vsc_mesh *mesh = sheet_mesh(8, 8, sheets[s].hx, sheets[s].hy, sheets[s].cut, sheets[s].jitter, 3);
+    vsc_mesh *mesh =
+        sheet_mesh(8, 8, sheets[s].hx, sheets[s].hy, sheets[s].cut, sheets[s].jitter, 3);
     vsc_sheet sheet = make_sheet(mesh, &def);
     double *x = malloc(3 * mesh->node_count * sizeof *x);
     for (int round = 0; round < 30; round++) {
@@ -355,7 +358,8 @@ static void rigid_motion_of_a_curved_sheet_is_free(void **state)
       for (int d = 0; d < 3; d++) x[3 * n + (size_t)d] += 7 * d;
     }
     // angles of 20-mm positions to some 1e-14, squared, times M of at most some 100
-    for (size_t t = 0; t < sheet.count; t++) assert_close(triangle_energy(&sheet, t, x), 0, 0, 1e-25);
+    for (size_t t = 0; t < sheet.count; t++)
+      assert_close(triangle_energy(&sheet, t, x), 0, 0, 1e-25);
   }
   free(x);
   vsc_sheet_free(&sheet);

@@ -62,11 +62,8 @@ static void stress_is_the_derivative_of_energy(void **state)
 {
   (void)state;
   enum { STEPS = 4, DIRECTIONS = 20 };
-  const vsc_sheet_moduli laws[] = {general,
-                                   {.axial = {5, 0}},
-                                   {.axial = {0, 5}},
-                                   {.angular = 5},
-                                   {.area = 5}};
+  const vsc_sheet_moduli laws[] = {
+      general, {.axial = {5, 0}}, {.axial = {0, 5}}, {.angular = 5}, {.area = 5}};
   uint64_t seed = 3;
   for (int round = 0; round < 50; round++) {
     const vsc_sheet_moduli *law = &laws[round % 5];
@@ -161,7 +158,8 @@ static void small_strain_elasticity_is_the_closed_form(void **state)
     minus[4 * b] -= h;
     stress_of(&general, plus, nothing, P[0]);
     stress_of(&general, minus, nothing, P[1]);
-    for (int a = 0; a < 2; a++) assert_close((P[0][4 * a] - P[1][4 * a]) / (2 * h), C[a][b], 0, 1e-8);
+    for (int a = 0; a < 2; a++)
+      assert_close((P[0][4 * a] - P[1][4 * a]) / (2 * h), C[a][b], 0, 1e-8);
   }
   const double sheared[6] = {1, h / 2, 0, h / 2, 1, 0};
   double P[6];
@@ -179,10 +177,11 @@ static void a_case_by_hand(void **state)
   stress_of(&general, G, nothing, P);
   const double K = 11 * (2 * r - 1);
   // P_a = 7 x + 0.75 (u_b - x/2)/2 + K g_b x z,  P_b = 0.75 (x - u_b/2) + K z x g_a
-  const double expected[6] = {7 + K * r,    0.375 * r - K * 0.5,   0,
-                              0.75 * 0.75, -0.375 * r + 2 * K, 0};
+  const double expected[6] = {7 + K * r,   0.375 * r - K * 0.5, 0,
+                              0.75 * 0.75, -0.375 * r + 2 * K,  0};
   for (int i = 0; i < 6; i++) assert_close(P[i], expected[i], 0, 1e-14);
-  assert_close(energy_of(&general, G), 7 / 2. + 1.5 / 8 + 11 * (2 * r - 1) * (2 * r - 1) / 2, 1e-15, 0);
+  assert_close(energy_of(&general, G), 7 / 2. + 1.5 / 8 + 11 * (2 * r - 1) * (2 * r - 1) / 2, 1e-15,
+               0);
 }
 
 static void degenerate_axes_are_left_out(void **state)
@@ -232,7 +231,8 @@ static void axes_are_orthonormal_at_rest(void **state)
         for (int i = 0; i < 3; i++) {
           g[a][i] = 0;
           for (int e = 0; e < 2; e++)
-            g[a][i] += sheet.T[k][a][e] * (mesh->nodes[3 * (size_t)sheet.nodes[k][e + 1] + i] - x0[i]);
+            g[a][i] +=
+                sheet.T[k][a][e] * (mesh->nodes[3 * (size_t)sheet.nodes[k][e + 1] + i] - x0[i]);
         }
       const double normal[3] = {R[2], R[5], R[8]};
       double along = 0, dots[3] = {0};

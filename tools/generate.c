@@ -10,15 +10,17 @@
 
 #include "base/mem.h"
 #include "io/vtk.h"
+#include "io/vtk_polydata.h"
 #include "mesh/surface.h"
 #include "tools/shapes.h"
 #include "tools/shapes_block.h"
 #include "tools/shapes_cloud.h"
+#include "tools/shapes_liver.h"
 #include "tools/shapes_sheet.h"
 #include "tools/verbs.h"
 
 typedef struct wish {
-  const char *shape;  // lv, map, block, sheet or tube
+  const char *shape;
   const char *file;
   vsc_lv_shape lv;
   vsc_block_shape block;           // of a sheet, too: its first two numbers
@@ -27,6 +29,8 @@ typedef struct wish {
   vsc_block_kind element;
   bool unstructured;
   size_t points;                 // 0: the default
+  size_t bricks;  // of a liver, along each side
+  vsc_liver_tree tree;
   double endo_angle, epi_angle;  // degrees
   double spacing;                // mm; 0: a quarter of the wall
 } wish;
@@ -34,7 +38,7 @@ typedef struct wish {
 static void print_help(void)
 {
   puts(
-      "Usage: viscera generate lv|map|block|sheet|tube [OPTION]...\n"
+      "Usage: viscera generate lv|map|block|sheet|tube|liver|vessels [OPTION]...\n"
       "Makes a mesh or an angle map by formulas. Lengths are mm, angles degrees.\n\n"
       "lv: a left ventricle between two half ellipsoids about z, apex at -z, cut by the plane\n"
       "z = base; node arrays endo, epi, base, rim (0 or 1), cell array region. With map: the\n"
@@ -66,8 +70,11 @@ static void print_help(void)
       "tube: the surface of a cylinder about z, from z = 0; node arrays z0 z1.\n"
       "      --radius=R --length=L            [10, 40]\n"
       "      --around=N --along=N             cells of two triangles each [32, 20]\n\n"
-      "  -o, --output=FILE                    [lv.vtu, lv_angles.vti, block.vtu, sheet.vtu, "
-      "tube.vtu]\n"
+      "liver: a liver of human size; node arrays top, bottom, front, back, cell array region. With\n"
+      "vessels: the centre lines of its vessels with their radii.\n"
+      "      --bricks=N                       bricks of 5 tets along each side [10]\n"
+      "      --tree=portal|hepatic            which tree [portal]\n\n"
+      "  -o, --output=FILE                    [the shape's name with its ending]\n"
       "  -h, --help                           this text\n\n"
       "Examples:\n"
       "  viscera generate lv -o data/lv.vtu\n"
@@ -99,6 +106,8 @@ enum {
   POINTS,
   RADIUS,
   LENGTH,
+  BRICKS,
+  TREE,
 };
 
 static const struct option options[] = {
@@ -123,6 +132,8 @@ static const struct option options[] = {
     {"points", required_argument, NULL, POINTS},
     {"radius", required_argument, NULL, RADIUS},
     {"length", required_argument, NULL, LENGTH},
+    {"bricks", required_argument, NULL, BRICKS},
+    {"tree", required_argument, NULL, TREE},
     {"output", required_argument, NULL, 'o'},
     {"help", no_argument, NULL, 'h'},
     {NULL, 0, NULL, 0},
@@ -211,6 +222,11 @@ static bool read_option(wish *wish, int option, const char *text)
       good = read_counts(text, &count, 1);
       wish->block.tets_per_cell = (int)count;
       return good;
+    case BRICKS:
+      return read_counts(text, &wish->bricks, 1);
+    case TREE:
+      wish->tree = strcmp(text, "hepatic") == 0 ? VSC_HEPATIC_TREE : VSC_PORTAL_TREE;
+      return wish->tree == VSC_HEPATIC_TREE || strcmp(text, "portal") == 0;
     case ELEMENT:
       return read_element(text, &wish->element);
     case UNSTRUCTURED:
@@ -334,6 +350,29 @@ static vsc_status generate_tube(const wish *wish, const char *file, vsc_error *e
   return finish_surface(file, status, mesh, error);
 }
 
+static vsc_status generate_liver(const wish *wish, const char *file, vsc_error *error)
+{
+  vsc_mesh *mesh = NULL;
+  vsc_status status = vsc_liver_mesh(wish->bricks, &mesh, error);
+  if (status == VSC_OK) status = write_mesh(file, mesh, error);
+  if (status == VSC_OK)
+    printf("%s: %zu nodes, %zu tets, %.1f ml\n", file, mesh->node_count, mesh->element_count,
+           mesh_volume(mesh) / 1000);
+  vsc_mesh_free(mesh);
+  return status;
+}
+
+static vsc_status generate_vessels(const wish *wish, const char *file, vsc_error *error)
+{
+  vsc_polydata *tree = NULL;
+  vsc_status status = vsc_liver_vessels(wish->tree, &tree, error);
+  if (status == VSC_OK) status = vsc_vtk_write_polydata(file, tree, error);
+  if (status == VSC_OK)
+    printf("%s: %zu points, %zu segments\n", file, tree->point_count, tree->segment_count);
+  vsc_polydata_free(tree);
+  return status;
+}
+
 static vsc_status generate(const wish *wish, vsc_error *error)
 {
   static const struct {
@@ -343,7 +382,9 @@ static vsc_status generate(const wish *wish, vsc_error *error)
                 {"map", "lv_angles.vti", generate_map},
                 {"block", "block.vtu", generate_block},
                 {"sheet", "sheet.vtu", generate_sheet},
-                {"tube", "tube.vtu", generate_tube}};
+                {"tube", "tube.vtu", generate_tube},
+                {"liver", "liver.vtu", generate_liver},
+                {"vessels", "vessels.vtp", generate_vessels}};
   const int numbers = strcmp(wish->shape, "sheet") == 0 ? 2 : 3;
   if ((wish->cell_numbers > 0 && wish->cell_numbers != numbers) ||
       (wish->size_numbers > 0 && wish->size_numbers != numbers))
@@ -352,7 +393,8 @@ static vsc_status generate(const wish *wish, vsc_error *error)
   for (size_t k = 0; k < sizeof shapes / sizeof shapes[0]; k++)
     if (strcmp(wish->shape, shapes[k].name) == 0)
       return shapes[k].make(wish, wish->file != NULL ? wish->file : shapes[k].file, error);
-  return vsc_fail(error, VSC_INPUT, "unknown shape '%s', must be lv, map, block, sheet or tube",
+  return vsc_fail(error, VSC_INPUT, "unknown shape '%s', must be lv, map, block, sheet, tube, liver or "
+                  "vessels",
                   wish->shape);
 }
 
@@ -362,7 +404,8 @@ int vsc_verb_generate(int argc, char **argv)
                .block = vsc_block_default(),
                .tube = vsc_tube_default(),
                .endo_angle = 60,
-               .epi_angle = -60};
+               .epi_angle = -60,
+               .bricks = 10};
   optind = 0;
   int option, index = 0;
   while ((option = getopt_long(argc, argv, "o:h", options, &index)) != -1) {
@@ -381,7 +424,7 @@ int vsc_verb_generate(int argc, char **argv)
   }
   if (optind + 1 != argc) {
     fprintf(stderr,
-            "viscera generate: say one shape: lv, map, block, sheet or tube, see `viscera generate "
+            "viscera generate: say one shape: lv, map, block, sheet, tube, liver or vessels, see `viscera generate "
             "--help`\n");
     return VSC_INPUT;
   }

@@ -18,7 +18,8 @@ vsc_tube_shape vsc_tube_default(void)
 }
 
 // Two triangles of the cell with corners a b c d (anti-clockwise), cut from a to c or from b to d.
-static void cut_cell(uint32_t *triangles, uint32_t a, uint32_t b, uint32_t c, uint32_t d, bool other)
+static void cut_cell(uint32_t *triangles, uint32_t a, uint32_t b, uint32_t c, uint32_t d,
+                     bool other)
 {
   const uint32_t corners[2][6] = {{a, b, c, a, c, d}, {a, b, d, b, c, d}};
   memcpy(triangles, corners[other], sizeof corners[other]);
@@ -47,11 +48,12 @@ static vsc_status check_sheet(const vsc_sheet_shape *sheet, vsc_error *error)
       return vsc_fail(error, VSC_INPUT, "sheet: %zu cells along %c, must be 1 to 10000",
                       sheet->cells[a], 'x' + a);
     if (!(sheet->size[a] > 0 && isfinite(sheet->size[a])))
-      return vsc_fail(error, VSC_INPUT, "sheet: size %g mm along %c, must be above 0", sheet->size[a],
-                      'x' + a);
+      return vsc_fail(error, VSC_INPUT, "sheet: size %g mm along %c, must be above 0",
+                      sheet->size[a], 'x' + a);
   }
   if (!(sheet->jitter >= 0 && sheet->jitter <= 0.3))
-    return vsc_fail(error, VSC_INPUT, "sheet: jitter %g, must be 0 to 0.3 of a cell", sheet->jitter);
+    return vsc_fail(error, VSC_INPUT, "sheet: jitter %g, must be 0 to 0.3 of a cell",
+                    sheet->jitter);
   return VSC_OK;
 }
 
@@ -99,8 +101,8 @@ vsc_status vsc_tube_mesh(const vsc_tube_shape *tube, vsc_mesh **result, vsc_erro
   const size_t around = tube->around, along = tube->along;
   if (around < 3 || around > 10000 || along < 1 || along > 10000)
     return vsc_fail(error, VSC_INPUT,
-                    "tube: %zu cells around and %zu along, must be 3 to 10000 and 1 to 10000", around,
-                    along);
+                    "tube: %zu cells around and %zu along, must be 3 to 10000 and 1 to 10000",
+                    around, along);
   vsc_mesh *mesh = start_mesh(around * (along + 1), around * along, names, 2);
   if (mesh == NULL) return vsc_fail_memory(error, "the tube's mesh");
   for (size_t n = 0; n < mesh->node_count; n++) {

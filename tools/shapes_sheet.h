@@ -17,8 +17,8 @@ typedef struct vsc_sheet_shape {
 // 20 x 20 cells of a square of 10 mm, no jitter.
 vsc_sheet_shape vsc_sheet_default(void);
 
-// The mesh of the sheet, triangles only, normals along +z: node arrays x0, x1, y0, y1, 0 or 1, for its
-// four edges. VSC_INPUT for an empty sheet. The caller owns *mesh.
+// The mesh of the sheet, triangles only, normals along +z: node arrays x0, x1, y0, y1, 0 or 1, for
+// its four edges. VSC_INPUT for an empty sheet. The caller owns *mesh.
 vsc_status vsc_sheet_mesh(const vsc_sheet_shape *shape, vsc_mesh **mesh, vsc_error *error);
 
 // The surface of a cylinder about z, from z = 0 to `length`, cut in the same way.

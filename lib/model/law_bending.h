@@ -3,7 +3,8 @@
 // theta (0 where the sheet is flat, positive where it curves towards the normal). A bend is a
 // triangle with its three neighbours and theirs: twelve nodes, nine folds. It stores
 //
-//   psi = |m|^2 / 2,   m_k = sum_j G_kj (phi_j - phi_j0), k = 1, 2, 3   (uJ),   phi = 2 sin(theta/2)
+//   psi = |m|^2 / 2,   m_k = sum_j G_kj (phi_j - phi_j0), k = 1, 2, 3   (uJ),   phi = 2
+//   sin(theta/2)
 //
 // that is, the plate's energy of the curvature that its folds tell of (vsc_bend_stiffness makes G).
 // One fold for itself cannot tell in which direction a sheet is curved: a sum over edges of
@@ -17,7 +18,8 @@
 //
 //   cos theta = n.m/(|n||m|),  sin theta = n.(r - p) l/(|n||m|)
 //   dtheta/dr = m l/|m|^2,  dtheta/ds = n l/|n|^2,
-//   dtheta/dp = -(1 - s_l) dtheta/ds - (1 - r_l) dtheta/dr,  dtheta/dq = -s_l dtheta/ds - r_l dtheta/dr
+//   dtheta/dp = -(1 - s_l) dtheta/ds - (1 - r_l) dtheta/dr,  dtheta/dq = -s_l dtheta/ds - r_l
+//   dtheta/dr
 //
 // with s_l, r_l = (s - p).(q - p)/l^2, (r - p).(q - p)/l^2. Damping of the same material makes
 // phi lead by tau dphi/dt, tau (ms) its viscosity over its modulus.
@@ -32,7 +34,7 @@ enum { VSC_BEND_NODES = 12, VSC_BEND_FOLDS = 9 };
 
 // p, q, s, r of each fold.
 static const int vsc_bend_fold_nodes[VSC_BEND_FOLDS][4] = {
-    {0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5}, {0, 3, 1, 6},  {3, 1, 0, 7},
+    {0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5},  {0, 3, 1, 6}, {3, 1, 0, 7},
     {1, 4, 2, 8}, {4, 2, 1, 9}, {2, 5, 0, 10}, {5, 0, 2, 11}};
 
 // Four bends at rest. Where there is no neighbour the column of G is 0, and the node any.
@@ -43,10 +45,10 @@ typedef struct vsc_bends {
 
 // One fold of four bends.
 typedef struct vsc_fold {
-  vsc_wide phi;     // 2 sin(theta/2)
-  vsc_wide slope;   // dphi/dtheta = cos(theta/2)
-  vsc_wide3 on_s;   // dtheta/ds, 1/mm
-  vsc_wide3 on_r;   // dtheta/dr, 1/mm
+  vsc_wide phi;    // 2 sin(theta/2)
+  vsc_wide slope;  // dphi/dtheta = cos(theta/2)
+  vsc_wide3 on_s;  // dtheta/ds, 1/mm
+  vsc_wide3 on_r;  // dtheta/dr, 1/mm
   vsc_wide s_l, r_l;
 } vsc_fold;
 

@@ -18,9 +18,9 @@
 
 // Two axes of four triangles.
 typedef struct vsc_sheet_axes {
-  vsc_wide3 g[2], u[2];               // axes, and their unit vectors (0 without direction)
-  vsc_wide length[2], inverse[2];     // n, 1/n (0 without direction)
-  vsc_wide3 normal;                   // m (0 where the triangle has no area)
+  vsc_wide3 g[2], u[2];            // axes, and their unit vectors (0 without direction)
+  vsc_wide length[2], inverse[2];  // n, 1/n (0 without direction)
+  vsc_wide3 normal;                // m (0 where the triangle has no area)
   vsc_wide J, c;
 } vsc_sheet_axes;
 

@@ -47,7 +47,8 @@ static int edge_between(const uint32_t *node, uint32_t a, uint32_t b)
   return 2;
 }
 
-// The third node of the triangle across the edge from p to q of `triangle`, or p where there is none.
+// The third node of the triangle across the edge from p to q of `triangle`, or p where there is
+// none.
 static uint32_t node_across(const vsc_sheet *sheet, const uint32_t (*neighbours)[3],
                             uint32_t triangle, uint32_t p, uint32_t q)
 {
@@ -128,7 +129,8 @@ static void invert_edges(const double x[3][3], const double a[3], const double b
   double h[2][3];
   vsc_subtract(x[1], x[0], h[0]);
   vsc_subtract(x[2], x[0], h[1]);
-  const double H[2][2] = {{vsc_dot(h[0], a), vsc_dot(h[0], b)}, {vsc_dot(h[1], a), vsc_dot(h[1], b)}};
+  const double H[2][2] = {{vsc_dot(h[0], a), vsc_dot(h[0], b)},
+                          {vsc_dot(h[1], a), vsc_dot(h[1], b)}};
   const double area = H[0][0] * H[1][1] - H[0][1] * H[1][0];
   T[0][0] = H[1][1] / area;
   T[0][1] = -H[0][1] / area;
@@ -184,7 +186,8 @@ static void row_of(const double terms[3], const double u[2], const double t[2], 
 {
   for (int i = 0; i < 2; i++)
     row[i] = terms[0] * u[i] * u[i] + terms[1] * u[i] * t[i] + terms[2] * t[i] * t[i];
-  row[2] = terms[0] * u[0] * u[1] + terms[1] * (u[0] * t[1] + u[1] * t[0]) / 2 + terms[2] * t[0] * t[1];
+  row[2] =
+      terms[0] * u[0] * u[1] + terms[1] * (u[0] * t[1] + u[1] * t[0]) / 2 + terms[2] * t[0] * t[1];
 }
 
 // The plate at D = 1: C, and its inverse.
@@ -291,7 +294,8 @@ static void free_edge(const double C[3][3], const double v[3], double B[3][VSC_B
   const double moment[3] = {vsc_dot(C[0], v), vsc_dot(C[1], v), vsc_dot(C[2], v)};
   const double stiffness = vsc_dot(v, moment);
   for (int j = 0; j < VSC_BEND_FOLDS; j++) {
-    const double part = (moment[0] * B[0][j] + moment[1] * B[1][j] + moment[2] * B[2][j]) / stiffness;
+    const double part =
+        (moment[0] * B[0][j] + moment[1] * B[1][j] + moment[2] * B[2][j]) / stiffness;
     for (int d = 0; d < 3; d++) B[d][j] -= part * v[d];
   }
 }
@@ -300,7 +304,8 @@ bool vsc_bend_stiffness(const double x[VSC_BEND_NODES][3], const bool has[VSC_BE
                         double nu, double G[3][VSC_BEND_FOLDS])
 {
   // k = B theta
-  double e[3][3], B[3][VSC_BEND_FOLDS] = {{0}}, slope[3][3], C[3][3], softness[3][3], way[3], off[3];
+  double e[3][3], B[3][VSC_BEND_FOLDS] = {{0}}, slope[3][3], C[3][3], softness[3][3], way[3],
+                  off[3];
   const double *corners[3] = {x[0], x[1], x[2]};
   basis_of(corners, e);
   plate_matrices(nu, C, softness);
@@ -333,7 +338,8 @@ bool vsc_bend_stiffness(const double x[VSC_BEND_NODES][3], const bool has[VSC_BE
 
 static void positions_of(const vsc_mesh *mesh, const uint32_t *nodes, double (*x)[3])
 {
-  for (int i = 0; i < VSC_BEND_NODES; i++) memcpy(x[i], mesh->nodes + 3 * (size_t)nodes[i], sizeof x[i]);
+  for (int i = 0; i < VSC_BEND_NODES; i++)
+    memcpy(x[i], mesh->nodes + 3 * (size_t)nodes[i], sizeof x[i]);
 }
 
 static void fold_angles(const double x[VSC_BEND_NODES][3], double fold[VSC_BEND_FOLDS])
@@ -361,10 +367,10 @@ static vsc_status fill_sheet(const vsc_mesh *mesh, const vsc_membrane_def *def, 
     positions_of(mesh, node, x);
     sheet->area[k] = normal_of(x, normal) / 2;
     if (!(sheet->area[k] > 0))
-      return vsc_fail(error, VSC_INPUT,
-                      "membrane %s: the triangle of points %u, %u and %u has no area; mend the mesh",
-                      def->name, mesh->node_source[node[0]], mesh->node_source[node[1]],
-                      mesh->node_source[node[2]]);
+      return vsc_fail(
+          error, VSC_INPUT,
+          "membrane %s: the triangle of points %u, %u and %u has no area; mend the mesh", def->name,
+          mesh->node_source[node[0]], mesh->node_source[node[1]], mesh->node_source[node[2]]);
     axes_of(def->direction, normal, a, b);
     invert_edges(x, a, b, sheet->T[k]);
     if (sheet->G == NULL) continue;

@@ -11,11 +11,11 @@
 // All arrays have one item per triangle; owned.
 typedef struct vsc_sheet {
   size_t count;
-  uint32_t (*nodes)[VSC_BEND_NODES];   // model/law_bending.h; what is not there is the fold's p
-  double *area;                        // mm^2
-  double (*T)[2][2];                   // g_a = sum_k T_ak h_k, h_k = x_k - x_0; 1/mm
-  double (*G)[3][VSC_BEND_FOLDS];      // of the bend; NULL: bends freely
-  double (*fold)[VSC_BEND_FOLDS];      // phi at rest; NULL likewise
+  uint32_t (*nodes)[VSC_BEND_NODES];  // model/law_bending.h; what is not there is the fold's p
+  double *area;                       // mm^2
+  double (*T)[2][2];                  // g_a = sum_k T_ak h_k, h_k = x_k - x_0; 1/mm
+  double (*G)[3][VSC_BEND_FOLDS];     // of the bend; NULL: bends freely
+  double (*fold)[VSC_BEND_FOLDS];     // phi at rest; NULL likewise
 } vsc_sheet;
 
 // Makes the sheet of `surface` (triangles of `mesh`) after `def`. Axis a of a triangle is the
@@ -39,11 +39,11 @@ void vsc_sheet_free(vsc_sheet *sheet);  // the content
 // moments is in equilibrium whatever rho is. A curvature k opens the edge by
 //   s = k_uu h/2 - k_ut f + k_tt (f^2 - l^2/4)/(2 h)
 // on the side of a triangle of height h and foot f (along the edge's direction t, from its middle),
-// and with -f for f on the neighbour's, unfolded: rho is half the difference of these for the mean of
-// the two triangles' own curvatures, those that their three angles tell. So any constant curvature of
-// any flat sheet costs what the plate's does. Where folds are missing, curvature relaxes to the
-// least energy: free edges carry no moment. A curvature that angles hardly tell (eigenvalues below
-// 1e-2 of the largest) is left out of rho. False when memory is short.
+// and with -f for f on the neighbour's, unfolded: rho is half the difference of these for the mean
+// of the two triangles' own curvatures, those that their three angles tell. So any constant
+// curvature of any flat sheet costs what the plate's does. Where folds are missing, curvature
+// relaxes to the least energy: free edges carry no moment. A curvature that angles hardly tell
+// (eigenvalues below 1e-2 of the largest) is left out of rho. False when memory is short.
 bool vsc_bend_stiffness(const double x[VSC_BEND_NODES][3], const bool has[VSC_BEND_FOLDS], double D,
                         double nu, double G[3][VSC_BEND_FOLDS]);
 

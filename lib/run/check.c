@@ -182,9 +182,10 @@ static void say_membranes(const vsc_model *model, FILE *out)
 
 static void say_terms(const vsc_model *model, FILE *out)
 {
-  fprintf(out, "terms      springs%s; volume of %s%s%s%s",
-          model->terms.damping ? ", axial damping" : "",
-          model->terms.nodal_volume ? "node groups and of each element" : "each element",
+  const char *volumes = model->terms.nodal_volume ? "; volume of node groups and of each element"
+                                                  : "; volume of each element";
+  fprintf(out, "terms      springs%s%s%s%s%s", model->terms.damping ? ", axial damping" : "",
+          model->element_count > 0 ? volumes : "",
           model->terms.active == VSC_ACTIVE_SPRING ? "; active springs" : "",
           model->terms.active == VSC_ACTIVE_TENSION ? "; active tension" : "",
           model->terms.gravity ? "; gravity" : "");
