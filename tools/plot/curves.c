@@ -73,6 +73,7 @@ static void draw_curve(const graph *g, const vsc_signals *signals, const double 
                        const char *caption)
 {
   const double *time = vsc_signals_find(signals, "time"), *colour = colours[k % COLOURS];
+  cairo_new_path(g->cairo);
   for (size_t r = 0; r < signals->rows; r++)
     cairo_line_to(g->cairo, place(g, 0, time[r]), place(g, 1, values[r]));
   cairo_set_source_rgb(g->cairo, colour[0], colour[1], colour[2]);
