@@ -73,6 +73,23 @@ static void write_mesh(const char *file, size_t nodes, double shift)
                    VSC_OK);
 }
 
+// Two triangles alone with an array `t`, plus `shift`.
+static void write_sheet(const char *file, double shift)
+{
+  static const uint32_t triangles[6] = {0, 1, 2, 2, 1, 3};
+  const double t[2] = {5 + shift, 6 + shift};
+  vsc_mesh *sheet = vsc_mesh_create(4, 0, 2);
+  assert_non_null(sheet);
+  for (size_t i = 0; i < 4; i++) {
+    sheet->nodes[3 * i] = (double)(i % 2);
+    sheet->nodes[3 * i + 1] = (double)(i / 2);
+  }
+  memcpy(sheet->triangles, triangles, sizeof triangles);
+  const vsc_vtk_array array = {"t", 1, t, VSC_ON_TRIANGLES, false};
+  assert_int_equal(vsc_vtk_write_mesh(in_folder(file), sheet, 1, &array, true, NULL), VSC_OK);
+  vsc_mesh_free(sheet);
+}
+
 static void write_series(const char *file, const char *const *frames, const double *times,
                          int count)
 {
@@ -91,6 +108,8 @@ static int make_files(void **state)
   write_mesh("b.vtu", 5, 0.5);
   write_mesh("small.vtu", 4, 0);
   write_mesh("apart.vtu", 8, 0);
+  write_sheet("sheet.vtu", 0);
+  write_sheet("other.vtu", 1);
   write_series("a.pvd", (const char *[]){"a.vtu", "a.vtu", "a.vtu"}, (double[]){0, 0.1, 0.2}, 3);
   write_series("b.pvd", (const char *[]){"a.vtu", "b.vtu"}, (double[]){0, 0.1}, 2);
   const size_t size[3] = {2, 3, 4};
@@ -233,6 +252,21 @@ static void test_compare_meshes(void **state)
   assert_holds(said, "above the tolerance");
 }
 
+static void test_surfaces(void **state)
+{
+  (void)state;
+  double n[3];
+  assert_int_equal(run("info sheet.vtu"), 0);
+  assert_holds(said, "no elements, 2 triangles");
+  assert_holds(said, "arrays on triangles");
+  assert_holds(said, " 5 to 6\n");
+  assert_null(strstr(said, "arrays on elements"));
+  assert_int_equal(run("compare other.vtu sheet.vtu"), 0);
+  norms_of("t", n);
+  assert_close(n[0], 1, 1e-5, 0);
+  assert_null(strstr(said, "elements"));
+}
+
 static void test_compare_series(void **state)
 {
   (void)state;
@@ -273,6 +307,7 @@ int main(void)
       cmocka_unit_test(test_info),
       cmocka_unit_test(test_info_says_what_is_wrong),
       cmocka_unit_test(test_compare_meshes),
+      cmocka_unit_test(test_surfaces),
       cmocka_unit_test(test_compare_series),
       cmocka_unit_test(test_compare_refuses),
   };

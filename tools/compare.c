@@ -153,7 +153,7 @@ static vsc_status add_meshes(comparison *all, const char *file_a, const char *fi
   if (status == VSC_OK)
     status = add(all, "(positions)", "points", 3 * a->node_count, a->nodes, b->nodes, error);
   if (status == VSC_OK) status = add_arrays(all, "points", &a->node_data, &b->node_data, error);
-  if (status == VSC_OK)
+  if (status == VSC_OK && a->element_count > 0)
     status = add_arrays(all, "elements", &a->element_data, &b->element_data, error);
   if (status == VSC_OK && triangles)
     status = add_arrays(all, "triangles", &a->triangle_data, &b->triangle_data, error);

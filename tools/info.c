@@ -114,7 +114,7 @@ static void print_mesh(const vsc_mesh *mesh)
   }
   if (mesh->element_count > 0) print_quality(mesh);
   print_arrays("points", &mesh->node_data);
-  print_arrays("elements", &mesh->element_data);
+  if (mesh->element_count > 0) print_arrays("elements", &mesh->element_data);
   print_arrays("triangles", &mesh->triangle_data);
 }
 
