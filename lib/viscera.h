@@ -6,6 +6,7 @@
 //   vsc_mesh_from_arrays, vsc_vtk_read_mesh          a mesh
 //   vsc_axes_create, vsc_axes_complete, vsc_fibers_make   material axes
 //   vsc_default_definition, vsc_default_material     what to simulate
+//   vsc_calibrate, vsc_material_of_springs           springs for wanted moduli
 //   vsc_model_build                                  the immutable model
 //   vsc_state_create, vsc_start, vsc_advance         the moving state
 //   vsc_read_field, vsc_observe                      what to see of it
@@ -26,6 +27,7 @@
 #include "mesh/axes.h"
 #include "mesh/mesh.h"
 #include "mesh/surface.h"
+#include "model/calibration.h"
 #include "model/definition.h"
 #include "model/model.h"
 #include "run/check.h"

@@ -1,317 +1,316 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// viscera calibrate: what springs are equivalent to in every direction, and the springs of a material.
+// `viscera calibrate`: the stiffness of springs in every direction, and springs for given moduli.
 #include <getopt.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/mem.h"
-#include "base/vec3.h"
 #include "io/scene.h"
 #include "io/units.h"
-#include "model/calibration.h"
+#include "tools/calibrate_print.h"
 #include "tools/calibrate_measure.h"
 #include "tools/run_plot.h"
+#include "tools/scene_options.h"
 #include "tools/verbs.h"
 
 static const char help[] =
     "Usage: viscera calibrate [OPTION]... SCENE\n"
-    "       viscera calibrate [OPTION]... --isotropic E,NU\n"
-    "       viscera calibrate [OPTION]... --young Yf,Ys,Yn --shear Gfs,Gsn,Gnf --poisson Nfs,Nsn,Nnf\n"
-    "With a scene: the elastic constants that its materials' springs are equivalent to at small "
-    "strain,\n"
-    "in closed form and measured on a block of irregular tets. With constants: the springs that come\n"
-    "nearest to them, as lines for a scene, and what they reach of what was wanted.\n\n"
-    "      --young A,B,C        Young's moduli along fibre, sheet, normal: 10 kPa,4 kPa,3 kPa\n"
-    "      --shear A,B,C        shear moduli fs, sn, nf\n"
-    "      --poisson A,B,C      nu_fs, nu_sn, nu_nf (along b over along a, pulled along a)\n"
-    "      --isotropic E,NU     Young's modulus and Poisson's ratio\n"
-    "      --incompressible K   in place of --poisson: with the volume modulus K, which is large\n"
-    "      --axes 3|9|13        springs along f, s, n; also along the face diagonals; and the space\n"
-    "                           diagonals of the frame [3]\n"
-    "      --random N           Young's modulus measured in N random directions too\n"
-    "      --picture FILE.png   Young's modulus in the planes f-s, s-n and n-f, as a picture\n"
-    "  -h, --help               this text\n\n"
+    "       viscera calibrate --young F,S,N --shear FS,SN,NF --poisson FS,SN,NF\n"
+    "       viscera calibrate --young F,S,N --shear FS,SN,NF --incompressible\n"
+    "       viscera calibrate --isotropic E,NU\n"
+    "The first prints what the springs of a scene's materials amount to at small strain: Young's\n"
+    "modulus in the axes, diagonals and over all directions, shear moduli and Poisson's ratios, "
+    "in\n"
+    "closed form and as measured by loading an irregular block of tets with the program's own\n"
+    "forces. The others find the springs (none negative) that come nearest to wanted moduli, "
+    "print\n"
+    "them as a material for a scene, and what is matched and what is not as comments beside it.\n\n"
+    "  -m, --material NAME     only this material of the scene\n"
+    "  -s, --set KEY=VALUE     replace or add a value of the scene\n"
+    "      --young F,S,N       Young's moduli along fibre, sheet and normal; one for all three\n"
+    "      --shear FS,SN,NF    shear moduli, likewise\n"
+    "      --poisson FS,SN,NF  Poisson's ratios: pulled along the first axis, how much thinner "
+    "along\n"
+    "                          the second\n"
+    "      --isotropic E,NU    Young's modulus and Poisson's ratio of a material without "
+    "directions\n"
+    "      --incompressible    Poisson's ratios follow from Young's moduli\n"
+    "      --volume-modulus K  then: what remains against compression (100 times the largest "
+    "Young)\n"
+    "      --axes 3|9|13       springs along f, s, n (3), the face diagonals too, the space\n"
+    "                          diagonals too\n"
+    "      --random N          also N random directions\n"
+    "      --picture FILE.png  draw Young's modulus in the planes f-s, s-n, n-f; the numbers go "
+    "to\n"
+    "                          FILE.csv beside it\n"
+    "  -h, --help              this text\n\n"
     "Examples:\n"
     "  viscera calibrate data/beat.yaml\n"
-    "  viscera calibrate --isotropic '1.6 kPa,0.48'                     liver (1.6 kPa, 0.48)\n"
-    "  viscera calibrate --young '16 kPa,8 kPa,6 kPa' --shear '4 kPa,2 kPa,4 kPa' --incompressible "
-    "'1 MPa'\n";
+    "  viscera calibrate data/block.yaml --random 20 --picture muscle.png\n"
+    "  # liver, shear modulus 2.14 kPa by magnetic resonance elastography (Venkatesh 2014)\n"
+    "  viscera calibrate --young 6.42kPa --shear 2.14kPa --incompressible\n"
+    "  # liver of a real-time simulator (AMSES 2015, doi 10.1186/s40323-015-0049-1)\n"
+    "  viscera calibrate --isotropic 1.6kPa,0.48\n"
+    "  # passive myocardium at small strain: Guccione's law with C = 2 kPa, b = 8, 2, 4 (Land "
+    "2015)\n"
+    "  viscera calibrate --young 18kPa,7.2kPa,7.2kPa --shear 4kPa,2kPa,4kPa --incompressible\n"
+    "  # two independent Poisson couplings: what three axes leave open, nine match\n"
+    "  viscera calibrate --young 10kPa,4kPa,3kPa --shear 3kPa,2kPa,3kPa --poisson 0.3,0.2,0.1 "
+    "--axes 9\n";
 
-typedef struct wish {
-  vsc_orthotropic constants;
-  double volume_modulus;
-  bool young, shear, poisson, incompressible;
-  vsc_calibration_axes axes;
-  long random;
-  const char *picture, *scene;
-} wish;
+typedef struct request {
+  vsc_scene_options scene;
+  const char *material, *picture;
+  bool young, shear, poisson, isotropic, incompressible;
+  vsc_moduli moduli;
+  double volume_modulus;  // 0: not given
+  int axes, random;
+} request;
 
-// ---- reading
-
-// `count` quantities with commas between them.
-static bool read_list(const char *option, const char *text, vsc_quantity quantity, int count,
-                      double *values)
+static int fail(const vsc_error *error)
 {
-  char copy[256], *rest = copy;
-  vsc_error error;
+  fprintf(stderr, "viscera: calibrate: %s\n", error->text);
+  return (int)error->status;
+}
+
+// ---- options
+
+// Reads `text` as `count` values with commas between them; one value stands for all where `alike`.
+static vsc_status read_list(const char *option, const char *text, const vsc_quantity *quantity,
+                            int count, bool alike, double *values, vsc_error *error)
+{
+  char copy[256];
+  int found = 0;
   snprintf(copy, sizeof copy, "%s", text);
-  for (int i = 0; i < count; i++) {
-    char *item = strsep(&rest, ",");
-    if (item == NULL || (i + 1 == count && rest != NULL)) {
-      fprintf(stderr, "viscera calibrate: --%s '%s': expected %d values with commas between them\n",
-              option, text, count);
-      return false;
-    }
-    while (*item == ' ') item++;
-    if (vsc_units_read(item, quantity, &values[i], &error) != VSC_OK) {
-      fprintf(stderr, "viscera calibrate: --%s '%s': %s\n", option, text, error.text);
-      return false;
-    }
+  for (char *rest = copy, *item; (item = strsep(&rest, ",")) != NULL; found++) {
+    vsc_error reason;
+    if (found < count && vsc_units_read(item, quantity[found], &values[found], &reason) != VSC_OK)
+      return vsc_fail(error, VSC_INPUT, "--%s %s: %s", option, text, reason.text);
   }
-  return true;
+  if (found == 1 && alike)
+    for (; found < count; found++) values[found] = values[0];
+  if (found == count) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT, "--%s %s: %d values, expected %d with commas between them",
+                  option, text, found, count);
 }
 
-static bool read_isotropic(const char *text, wish *w)
+static vsc_status read_isotropic(request *wish, vsc_error *error)
 {
-  char copy[256], *rest = copy;
-  double young, poisson;
-  snprintf(copy, sizeof copy, "%s", text);
-  const char *first = strsep(&rest, ",");
-  if (rest == NULL) {
-    fprintf(stderr, "viscera calibrate: --isotropic '%s': expected such as '10 kPa,0.45'\n", text);
-    return false;
-  }
-  if (!read_list("isotropic", first, VSC_PRESSURE, 1, &young) ||
-      !read_list("isotropic", rest, VSC_NUMBER, 1, &poisson))
-    return false;
-  w->constants = vsc_isotropic(young, poisson);
-  w->young = w->shear = w->poisson = true;
-  return true;
+  static const vsc_quantity quantity[2] = {VSC_PRESSURE, VSC_NUMBER};
+  double values[2];
+  wish->isotropic = true;
+  const vsc_status status = read_list("isotropic", optarg, quantity, 2, false, values, error);
+  return status != VSC_OK ? status
+                          : vsc_moduli_isotropic(values[0], values[1], &wish->moduli, error);
 }
 
-enum { YOUNG = 256, SHEAR, POISSON, ISOTROPIC, INCOMPRESSIBLE, AXES, RANDOM, PICTURE };
-
-static bool read_option(int option, const char *text, wish *w)
+static vsc_status read_whole(const char *option, int low, int high, int *value, vsc_error *error)
 {
-  switch (option) {
-    case YOUNG: return w->young = read_list("young", text, VSC_PRESSURE, 3, w->constants.young);
-    case SHEAR: return w->shear = read_list("shear", text, VSC_PRESSURE, 3, w->constants.shear);
-    case POISSON:
-      return w->poisson = read_list("poisson", text, VSC_NUMBER, 3, w->constants.poisson);
-    case ISOTROPIC: return read_isotropic(text, w);
-    case INCOMPRESSIBLE:
-      return w->incompressible =
-                 read_list("incompressible", text, VSC_PRESSURE, 1, &w->volume_modulus);
-    case AXES:
-      w->axes = (vsc_calibration_axes)strtol(text, NULL, 10);
-      if (w->axes == VSC_THREE_AXES || w->axes == VSC_NINE_AXES || w->axes == VSC_THIRTEEN_AXES)
-        return true;
-      fprintf(stderr, "viscera calibrate: --axes '%s': expected 3, 9 or 13\n", text);
-      return false;
-    case RANDOM:
-      w->random = strtol(text, NULL, 10);
-      if (w->random > 0 && w->random <= 10000) return true;
-      fprintf(stderr, "viscera calibrate: --random '%s': expected a number from 1 to 10000\n", text);
-      return false;
-    default:
-      w->picture = text;
-      return true;
-  }
-}
-
-static int read_arguments(int argc, char **argv, wish *w, bool *helped)
-{
-  static const struct option options[] = {
-      {"young", required_argument, NULL, YOUNG},
-      {"shear", required_argument, NULL, SHEAR},
-      {"poisson", required_argument, NULL, POISSON},
-      {"isotropic", required_argument, NULL, ISOTROPIC},
-      {"incompressible", required_argument, NULL, INCOMPRESSIBLE},
-      {"axes", required_argument, NULL, AXES},
-      {"random", required_argument, NULL, RANDOM},
-      {"picture", required_argument, NULL, PICTURE},
-      {"help", no_argument, NULL, 'h'},
-      {0}};
-  for (int c; (c = getopt_long(argc, argv, "h", options, NULL)) != -1;) {
-    if (c == 'h') {
-      *helped = true;
-      return fputs(help, stdout) < 0 ? VSC_SYSTEM : VSC_OK;
-    }
-    if (c == '?' || !read_option(c, optarg, w)) return VSC_INPUT;
-  }
-  w->scene = optind < argc ? argv[optind] : NULL;
-  const bool constants = w->young && w->shear && (w->poisson || w->incompressible);
-  const bool some = w->young || w->shear || w->poisson || w->incompressible;
-  if (optind + 1 >= argc && (w->scene != NULL ? !some : constants)) return VSC_OK;
-  fputs(
-      "viscera calibrate: give one scene, or --isotropic, or --young and --shear with --poisson or "
-      "--incompressible; see `viscera calibrate --help`\n",
-      stderr);
-  return VSC_INPUT;
-}
-
-// ---- tables
-
-static void print_constants(const vsc_orthotropic *got, const vsc_orthotropic *wanted)
-{
-  static const char *const names[9] = {"Y_f", "Y_s", "Y_n", "G_fs", "G_sn", "G_nf",
-                                       "nu_fs", "nu_sn", "nu_nf"};
-  const double *of_got = got->young, *of_wanted = wanted ? wanted->young : NULL;
-  printf("  %-8s%12s", "", "springs");
-  puts(wanted ? "      wanted   difference" : "");
-  for (int k = 0; k < 9; k++) {
-    printf("  %-8s%12.6g", names[k], of_got[k]);
-    if (wanted)
-      printf("%12.6g  %+9.3f %s", of_wanted[k],
-             k < 6 ? 100 * (of_got[k] / of_wanted[k] - 1) : of_got[k] - of_wanted[k],
-             k < 6 ? "%" : "");
-    printf("%s\n", k < 6 ? (wanted ? "" : " kPa") : "");
-  }
-}
-_Static_assert(sizeof(vsc_orthotropic) == 9 * sizeof(double), "read as nine numbers above");
-
-static void print_directions(const double S[36], const vsc_sample *sample)
-{
-  printf("  Young's modulus, kPa       closed form    measured\n");
-  for (int k = 0; k < VSC_DIRECTIONS; k++) {
-    const vsc_named_direction direction = vsc_direction(k);
-    printf("  along %-20s%12.6g%12.6g\n", direction.name, vsc_young(S, direction.d),
-           vsc_sample_young(sample, direction.d));
-  }
-  const vsc_young_range range = vsc_young_over_sphere(S);
-  printf("  over all directions     least %.6g, mean %.6g, most %.6g: anisotropy %.4g\n", range.low,
-         range.mean, range.high, range.high / range.low);
-}
-
-static void print_random(const double S[36], const vsc_sample *sample, long count)
-{
-  double worst = 0;
-  srand(1);
-  for (long k = 0; k < count; k++) {
-    double d[3];
-    do
-      for (int i = 0; i < 3; i++) d[i] = 2 * ((double)rand() / RAND_MAX) - 1;
-    while (vsc_norm(d) > 1 || vsc_norm(d) < 0.1);
-    vsc_normalize(d);
-    const double closed = vsc_young(S, d), measured = vsc_sample_young(sample, d);
-    printf("  along (%6.3f, %6.3f, %6.3f)  %12.6g%12.6g\n", d[0], d[1], d[2], closed, measured);
-    worst = fmax(worst, fabs(measured / closed - 1));
-  }
-  if (count > 0) printf("  measured and closed form differ by %.2g at most\n", worst);
-}
-
-// CSV of Young's modulus round the three planes: angle, closed and wanted in each; then the picture
-// program draws it.
-static vsc_status draw(const wish *w, const double S[36], const double *wanted,
-                       const vsc_sample *sample, vsc_error *error)
-{
-  char table[4096];
-  if (w->picture == NULL) return VSC_OK;
-  snprintf(table, sizeof table, "%s.csv", w->picture);
-  FILE *file = fopen(table, "w");
-  if (file == NULL) return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written", table);
-  fputs("angle [deg],closed f-s,closed s-n,closed n-f,measured f-s,measured s-n,measured n-f", file);
-  fputs(wanted ? ",wanted f-s,wanted s-n,wanted n-f\n" : "\n", file);
-  for (int angle = 0; angle <= 360; angle += 5) {
-    double closed[3], measured[3], target[3];
-    for (int p = 0; p < 3; p++) {
-      double d[3] = {0};
-      d[p] = cos(angle * M_PI / 180);
-      d[(p + 1) % 3] = sin(angle * M_PI / 180);
-      closed[p] = vsc_young(S, d);
-      measured[p] = vsc_sample_young(sample, d);
-      target[p] = wanted ? vsc_young(wanted, d) : 0;
-    }
-    fprintf(file, "%d", angle);
-    for (int p = 0; p < 3; p++) fprintf(file, ",%.8g", closed[p]);
-    for (int p = 0; p < 3; p++) fprintf(file, ",%.8g", measured[p]);
-    for (int p = 0; p < 3 && wanted; p++) fprintf(file, ",%.8g", target[p]);
-    fputc('\n', file);
-  }
-  if (fclose(file) != 0) return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written", table);
-  char *arguments[] = {"viscera-plot", "--polar", table, "-o", (char *)w->picture, NULL};
-  const int code = vsc_run_plot(arguments);
-  remove(table);
-  if (code != 0) return vsc_fail(error, (vsc_status)code, "%s: could not be drawn", w->picture);
-  printf("  picture: %s\n", w->picture);
+  char *end;
+  const long number = strtol(optarg, &end, 10);
+  if (end == optarg || *end != '\0' || number < low || number > high)
+    return vsc_fail(error, VSC_INPUT, "--%s %s: expected a whole number from %d to %d", option,
+                    optarg, low, high);
+  *value = (int)number;
   return VSC_OK;
 }
 
-// The tables of one material; `wanted` may be NULL.
-static vsc_status print_material(const wish *w, const vsc_material_def *material,
-                                 vsc_volume_kind volume, const vsc_orthotropic *wanted,
-                                 vsc_error *error)
+static vsc_status read_axes(request *wish, vsc_error *error)
 {
-  double C[36], S[36], S_wanted[36];
-  vsc_sample *sample = NULL;
-  vsc_status status = vsc_stiffness_of(material, volume, C, error);
-  if (status == VSC_OK) status = vsc_invert_six(C, S, error);
-  if (status == VSC_OK && wanted) status = vsc_compliance_of(wanted, S_wanted, error);
-  if (status == VSC_OK) status = vsc_sample_open(material, volume, &sample, error);
-  if (status != VSC_OK) return status;
-  const vsc_orthotropic got = vsc_constants_of(S);
-  print_constants(&got, wanted);
-  print_directions(S, sample);
-  print_random(S, sample, w->random);
-  status = draw(w, S, wanted ? S_wanted : NULL, sample, error);
-  vsc_sample_close(sample);
-  return status;
+  if (read_whole("axes", 3, 13, &wish->axes, error) != VSC_OK) return VSC_INPUT;
+  if (wish->axes == 3 || wish->axes == 9 || wish->axes == 13) return VSC_OK;
+  return vsc_fail(
+      error, VSC_INPUT,
+      "--axes %d: expected 3 (f, s, n), 9 (and the face diagonals) or 13 (and the space "
+      "diagonals)",
+      wish->axes);
 }
 
-// ---- the two ways
-
-static vsc_status describe_scene(const wish *w, vsc_error *error)
+static vsc_status keep_picture(request *wish, vsc_error *error)
 {
-  vsc_scene *scene;
-  vsc_status status = vsc_scene_read(w->scene, NULL, 0, &scene, error);
-  if (status != VSC_OK) return status;
-  const vsc_definition *d = &scene->definition;
-  for (size_t m = 0; m < d->material_count && status == VSC_OK; m++) {
-    printf("material %s\n", d->materials[m].name);
-    status = print_material(w, &d->materials[m], d->volume, NULL, error);
+  const char *dot = strrchr(optarg, '.');
+  wish->picture = optarg;
+  if (dot != NULL && strcmp(dot, ".png") == 0 && strlen(optarg) < VSC_PATH) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT, "--picture %s: expected a file name that ends in .png", optarg);
+}
+
+static vsc_status read_option(int option, request *wish, vsc_error *error)
+{
+  static const vsc_quantity moduli[3] = {VSC_PRESSURE, VSC_PRESSURE, VSC_PRESSURE};
+  static const vsc_quantity ratios[3] = {VSC_NUMBER, VSC_NUMBER, VSC_NUMBER};
+  switch (option) {
+    case 'y':
+      wish->young = true;
+      return read_list("young", optarg, moduli, 3, true, wish->moduli.young, error);
+    case 'g':
+      wish->shear = true;
+      return read_list("shear", optarg, moduli, 3, true, wish->moduli.shear, error);
+    case 'p':
+      wish->poisson = true;
+      return read_list("poisson", optarg, ratios, 3, true, wish->moduli.poisson, error);
+    case 'i':
+      return read_isotropic(wish, error);
+    case 'k':
+      return read_list("volume-modulus", optarg, moduli, 1, true, &wish->volume_modulus, error);
+    case 'a':
+      return read_axes(wish, error);
+    case 'r':
+      return read_whole("random", 0, 1000000, &wish->random, error);
+    case 'P':
+      return keep_picture(wish, error);
+    case 'I':
+      wish->incompressible = true;
+      return VSC_OK;
+    case 'm':
+      wish->material = optarg;
+      return VSC_OK;
+    default:
+      return vsc_fail(error, VSC_INPUT, "`viscera calibrate --help` lists the options");
   }
+}
+
+// What was asked for must be one of the four forms.
+static vsc_status check_form(const request *wish, vsc_error *error)
+{
+  const bool given = wish->young || wish->shear || wish->poisson;
+  if (wish->scene.scene != NULL) {
+    if (!given && !wish->isotropic && !wish->incompressible && wish->volume_modulus == 0)
+      return VSC_OK;
+    return vsc_fail(error, VSC_INPUT, "give a scene or moduli, not both");
+  }
+  if (wish->isotropic && !given && !wish->incompressible && wish->volume_modulus == 0)
+    return VSC_OK;
+  if (wish->isotropic)
+    return vsc_fail(error, VSC_INPUT,
+                    "--isotropic says it all: leave out --young, --shear, "
+                    "--poisson, --incompressible and --volume-modulus");
+  if (!wish->young || !wish->shear)
+    return vsc_fail(error, VSC_INPUT,
+                    "give a scene, --isotropic, or --young and --shear; `viscera calibrate --help` "
+                    "tells more");
+  if (wish->poisson == wish->incompressible)
+    return vsc_fail(error, VSC_INPUT, "give either --poisson or --incompressible");
+  if (wish->volume_modulus != 0 && !wish->incompressible)
+    return vsc_fail(error, VSC_INPUT,
+                    "--volume-modulus: it follows from --poisson; give it with --incompressible");
+  return VSC_OK;
+}
+
+// ---- what is done
+
+// Has viscera-plot draw the curves, which are written beside the picture.
+static vsc_status draw(const request *wish, const vsc_answer *answer, const char *title,
+                       vsc_error *error)
+{
+  char csv[VSC_PATH];
+  snprintf(csv, sizeof csv, "%.*s.csv", (int)strlen(wish->picture) - 4, wish->picture);
+  const vsc_status status = vsc_write_polar(csv, answer, error);
+  if (status != VSC_OK) return status;
+  char *arguments[] = {"viscera: plot",       "--polar", csv, "--title", (char *)title, "-o",
+                       (char *)wish->picture, NULL};
+  const int code = vsc_run_plot(arguments);
+  if (code == 0) return VSC_OK;
+  return vsc_fail(error, (vsc_status)code, "%s: not drawn; the curves are in %s", wish->picture,
+                  csv);
+}
+
+static vsc_status describe(const request *wish, const vsc_material_def *material,
+                           vsc_volume_kind volume, vsc_error *error)
+{
+  double C[36], S[36], measured[36];
+  vsc_status status = vsc_stiffness_of(material, volume, C, error);
+  if (status == VSC_OK) status = vsc_invert_six(C, S, error);
+  if (status == VSC_OK) status = vsc_measure_compliance(material, volume, measured, error);
+  if (status != VSC_OK) return status;
+  const vsc_answer answer = {.springs = S, .measured = measured};
+  printf("%s, at rest%s%s\n", material->name,
+         material->active.kind != VSC_ACTIVE_NONE ? ", not activated" : "",
+         material->inclusion_count > 0 ? ", without its inclusions" : "");
+  vsc_print_table(stdout, "", &answer, wish->random);
+  return wish->picture != NULL ? draw(wish, &answer, material->name, error) : VSC_OK;
+}
+
+static vsc_status describe_scene(const request *wish, vsc_error *error)
+{
+  vsc_scene *scene = NULL;
+  const vsc_scene_options *options = &wish->scene;
+  vsc_status status =
+      vsc_scene_read(options->scene, options->settings, options->setting_count, &scene, error);
+  if (status != VSC_OK) return status;
+  const vsc_definition *definition = &scene->definition;
+  size_t found = 0;
+  if (wish->picture != NULL && wish->material == NULL && definition->material_count > 1)
+    status = vsc_fail(error, VSC_INPUT, "--picture: %s has %zu materials: choose one by --material",
+                      options->scene, definition->material_count);
+  for (size_t m = 0; status == VSC_OK && m < definition->material_count; m++) {
+    const vsc_material_def *material = &definition->materials[m];
+    if (wish->material != NULL && strcmp(wish->material, material->name) != 0) continue;
+    if (found++ > 0) putchar('\n');
+    status = describe(wish, material, definition->volume, error);
+    if (status != VSC_INPUT || wish->material != NULL) continue;
+    puts(error->text);  // another law: the other materials follow
+    status = VSC_OK;
+  }
+  if (status == VSC_OK && found == 0)
+    status = vsc_fail(error, VSC_INPUT, "--material %s: %s has no such material", wish->material,
+                      options->scene);
   vsc_scene_free(scene);
   return status;
 }
 
-static void print_springs(const vsc_material_def *m)
+// The springs for the wanted moduli: the incompressible limit in closed form where three axes
+// do, else the nearest ones.
+static vsc_status find_springs(request *wish, vsc_spring_constants *springs, vsc_error *error)
 {
-  printf("axial:   {f: %.6g kPa, s: %.6g kPa, n: %.6g kPa}\n", m->axial[0], m->axial[1], m->axial[2]);
-  printf("angular: {fs: %.6g kPa, sn: %.6g kPa, nf: %.6g kPa}\n", m->angular[0], m->angular[1],
-         m->angular[2]);
-  printf("volume_modulus: %.6g kPa\n", m->volume_modulus);
-  if (m->axis_count > 0) puts("axes:");
-  for (size_t k = 0; k < m->axis_count; k++)
-    printf("  - {direction: [%g, %g, %g], modulus: %.6g kPa}\n", m->axes[k].direction[0],
-           m->axes[k].direction[1], m->axes[k].direction[2], m->axes[k].modulus);
+  vsc_moduli *moduli = &wish->moduli;
+  if (!wish->incompressible) return vsc_calibrate(moduli, wish->axes, springs, error);
+  const double *Y = moduli->young;
+  if (wish->volume_modulus == 0) wish->volume_modulus = 100 * fmax(Y[0], fmax(Y[1], Y[2]));
+  *springs = (vsc_spring_constants){.volume_modulus = wish->volume_modulus};
+  memcpy(springs->angular, moduli->shear, sizeof springs->angular);
+  vsc_status status = vsc_moduli_incompressible(wish->volume_modulus, moduli, error);
+  if (status == VSC_OK) status = vsc_axial_incompressible(Y, springs->axial, error);
+  if (status != VSC_OK) return status;
+  if (wish->axes > 3 || fmin(springs->axial[0], fmin(springs->axial[1], springs->axial[2])) < 0)
+    return vsc_calibrate(moduli, wish->axes, springs, error);
+  return vsc_compare_springs(moduli, springs, error);
 }
 
-static vsc_status find_springs(const wish *w, vsc_error *error)
+static void print_verdict(const vsc_spring_constants *springs)
 {
-  vsc_material_def material = vsc_default_material();
-  vsc_orthotropic wanted = w->constants;
-  double residual = 0, S[36], C[36];
-  vsc_copy_name(material.name, "wanted");
-  vsc_status status =
-      w->incompressible
-          ? vsc_calibrate_incompressible(&wanted, w->volume_modulus, &material, error)
-          : vsc_calibrate(&wanted, w->axes, &material, &residual, error);
-  if (status == VSC_OK && w->incompressible) {
-    // Poisson's ratios were not asked for: those that the springs have
-    status = vsc_stiffness_of(&material, VSC_VOLUME_ELEMENT, C, error);
-    if (status == VSC_OK) status = vsc_invert_six(C, S, error);
-    if (status == VSC_OK)
-      memcpy(wanted.poisson, vsc_constants_of(S).poisson, sizeof wanted.poisson);
-  }
+  const double least = springs->least_energy, most = springs->most_energy;
+  if (least > 1 - 1e-6 && most < 1 + 1e-6)
+    puts("  # matched exactly");
+  else
+    printf(
+        "  # not matched exactly: depending on the strain, the springs store %.4g to %.4g times "
+        "the "
+        "wanted energy\n",
+        least, most);
+  puts("  # at small strain:");
+}
+
+static vsc_status answer_wish(request *wish, vsc_error *error)
+{
+  double wanted[36], C[36], S[36], measured[36];
+  vsc_spring_constants springs;
+  vsc_material_def material = {0};
+  vsc_status status = find_springs(wish, &springs, error);
+  if (status == VSC_OK) status = vsc_material_of_springs(&springs, &material, error);
+  if (status != VSC_OK) return status;
+  vsc_copy_name(material.name, "tissue");
+  vsc_moduli_compliance(&wish->moduli, wanted);
+  status = vsc_stiffness_of(&material, VSC_VOLUME_ELEMENT, C, error);
+  if (status == VSC_OK) status = vsc_invert_six(C, S, error);
+  if (status == VSC_OK)
+    status = vsc_measure_compliance(&material, VSC_VOLUME_ELEMENT, measured, error);
   if (status == VSC_OK) {
-    print_springs(&material);
-    printf("# %s\n", residual < 1e-9 ? "exact" : "as near as springs of positive modulus come");
-    if (residual >= 1e-9)
-      printf("# what is left of the stiffness, seen from the wanted one: %.3g of %.3g\n", residual,
-             sqrt(6));
-    status = print_material(w, &material, VSC_VOLUME_ELEMENT, &wanted, error);
+    const vsc_answer answer = {.wanted = wanted, .springs = S, .measured = measured};
+    vsc_print_material(stdout, &material);
+    print_verdict(&springs);
+    vsc_print_table(stdout, "  # ", &answer, wish->random);
+    if (wish->picture != NULL) status = draw(wish, &answer, "springs for given moduli", error);
   }
   vsc_free(material.axes);
   return status;
@@ -319,12 +318,36 @@ static vsc_status find_springs(const wish *w, vsc_error *error)
 
 int vsc_verb_calibrate(int argc, char **argv)
 {
-  wish w = {.axes = VSC_THREE_AXES};
-  bool helped = false;
+  static const struct option options[] = {{"material", required_argument, NULL, 'm'},
+                                          {"set", required_argument, NULL, 's'},
+                                          {"young", required_argument, NULL, 'y'},
+                                          {"shear", required_argument, NULL, 'g'},
+                                          {"poisson", required_argument, NULL, 'p'},
+                                          {"isotropic", required_argument, NULL, 'i'},
+                                          {"incompressible", no_argument, NULL, 'I'},
+                                          {"volume-modulus", required_argument, NULL, 'k'},
+                                          {"axes", required_argument, NULL, 'a'},
+                                          {"random", required_argument, NULL, 'r'},
+                                          {"picture", required_argument, NULL, 'P'},
+                                          {"help", no_argument, NULL, 'h'},
+                                          {0}};
+  request wish = {.axes = 3};
   vsc_error error;
-  const int code = read_arguments(argc, argv, &w, &helped);
-  if (code != VSC_OK || helped) return code;
-  const vsc_status status = w.scene ? describe_scene(&w, &error) : find_springs(&w, &error);
-  if (status != VSC_OK) fprintf(stderr, "viscera calibrate: %s\n", error.text);
-  return (int)status;
+  for (int c; (c = getopt_long(argc, argv, "m:s:h", options, NULL)) != -1;) {
+    if (c == 'h') return fputs(help, stdout) < 0 ? VSC_SYSTEM : VSC_OK;
+    if (c == 's') {
+      if (vsc_keep_setting(&wish.scene, optarg) != 0) return VSC_INPUT;
+    } else if (read_option(c, &wish, &error) != VSC_OK) {
+      return fail(&error);
+    }
+  }
+  if (argc - optind > 1) {
+    vsc_fail(&error, VSC_INPUT, "%s: one scene is enough", argv[optind + 1]);
+    return fail(&error);
+  }
+  wish.scene.scene = argv[optind];
+  vsc_status status = check_form(&wish, &error);
+  if (status == VSC_OK)
+    status = wish.scene.scene != NULL ? describe_scene(&wish, &error) : answer_wish(&wish, &error);
+  return status == VSC_OK ? VSC_OK : fail(&error);
 }

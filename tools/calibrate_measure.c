@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/calibrate_measure.h"
 
+#include <gsl/gsl_blas.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
@@ -11,160 +12,197 @@
 #include "mech/force.h"
 #include "tools/shapes.h"
 
-static const double PROBE = 1e-5;  // mm: a part of an edge whose square is rounding
-
-struct vsc_sample {
+typedef struct block {
   vsc_mesh *mesh;
+  vsc_axes *axes;
+  vsc_surface boundary;
   vsc_model *model;
   vsc_state *state;
-  vsc_surface boundary;  // nodes of the mesh
-  uint32_t *number;      // of the mesh's nodes in the model
-  size_t free;           // unknowns
-  int32_t *unknown;      // 3 x nodes of the model; -1: pinned
-  gsl_matrix *stiffness; // Cholesky factor
-};
+  uint32_t *number;  // the model's number of each mesh node
+  size_t size;       // 3 x nodes, numbered as in the mesh
+  double *force;     // 2 x 4 x nodes
+  gsl_matrix *K;     // size x size, then its LU factors
+  gsl_permutation *order;
+  gsl_vector *load, *displacement;
+} block;
 
-// Rigid motion is taken away by six pins on three nodes: the loads are in balance, so they bear none.
-static void pin(vsc_sample *s)
-{
-  static const double corners[3][3] = {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}};
-  static const int pinned[3][3] = {{1, 1, 1}, {0, 1, 1}, {0, 0, 1}};
-  int32_t next = 0;
-  memset(s->unknown, 0, 3 * s->model->node_count * sizeof *s->unknown);
-  for (size_t n = 0; n < s->model->node_count; n++)
-    for (int c = 0; c < 3; c++) {
-      double way[3];
-      vsc_subtract(s->model->rest + 4 * n, corners[c], way);
-      for (int i = 0; i < 3 && vsc_norm(way) < 1e-9; i++)
-        if (pinned[c][i]) s->unknown[3 * n + (size_t)i] = -1;
-    }
-  for (size_t i = 0; i < 3 * s->model->node_count; i++)
-    if (s->unknown[i] == 0) s->unknown[i] = next++;
-  s->free = (size_t)next;
-}
+static const double fiber[3] = {0.48, 0.6, 0.64}, sheet[3] = {-0.8, 0.6, 0.3};
 
-static vsc_status assemble(vsc_sample *s, vsc_error *error)
-{
-  const size_t nodes = s->model->node_count;
-  double *x = s->state->x, *side[2] = {s->state->v, s->state->force};
-  s->stiffness = gsl_matrix_calloc(s->free, s->free);
-  if (s->stiffness == NULL) return vsc_fail_memory(error, "a stiffness matrix");
-  for (size_t j = 0; j < 3 * nodes; j++) {
-    if (s->unknown[j] < 0) continue;
-    double *moved = x + 4 * (j / 3) + j % 3, rest = *moved;
-    for (int k = 0; k < 2; k++) {
-      *moved = rest + (k == 0 ? PROBE : -PROBE);
-      vsc_force(s->model, x, NULL, 0, &s->state->scratch, side[k]);
-    }
-    *moved = rest;
-    for (size_t i = 0; i < 3 * nodes; i++) {
-      const size_t place = 4 * (i / 3) + i % 3;
-      if (s->unknown[i] >= 0)
-        gsl_matrix_set(s->stiffness, (size_t)s->unknown[i], (size_t)s->unknown[j],
-                       (side[1][place] - side[0][place]) / (2 * PROBE));
-    }
-  }
-  gsl_error_handler_t *handler = gsl_set_error_handler_off();
-  const int failed = gsl_linalg_cholesky_decomp1(s->stiffness);
-  gsl_set_error_handler(handler);
-  if (!failed) return VSC_OK;
-  return vsc_fail(error, VSC_NUMERICAL,
-                  "a block of the material does not resist every deformation: give it shear springs "
-                  "and a volume modulus");
-}
-
-static vsc_status build(vsc_sample *s, const vsc_material_def *material, vsc_volume_kind volume,
-                        vsc_error *error)
+static vsc_status make_body(block *b, const vsc_material_def *material, vsc_volume_kind volume,
+                            vsc_error *error)
 {
   const vsc_block_shape shape = {
-      .cells = {3, 3, 3}, .size = {3, 3, 3}, .tets_per_cell = 6, .jitter = 0.25, .seed = 5};
+      .cells = {4, 4, 4}, .size = {4, 4, 4}, .tets_per_cell = 5, .jitter = 0.25, .seed = 7};
+  vsc_status status = vsc_block_mesh(&shape, &b->mesh, error);
+  if (status == VSC_OK) status = vsc_boundary(b->mesh, &b->boundary, error);
+  if (status != VSC_OK) return status;
+  b->axes = vsc_axes_create(b->mesh->element_count);
+  if (b->axes == NULL) return vsc_fail_memory(error, "a block");
+  for (size_t t = 0; t < b->mesh->element_count; t++)
+    b->axes->known[t] = vsc_axes_complete(fiber, sheet, b->axes->frames + 9 * t);
   vsc_material_def passive = *material;
-  vsc_definition definition = vsc_default_definition();
   passive.active = vsc_default_active();
-  passive.region_count = passive.inclusion_count = 0;
+  passive.region_count = 0;
+  passive.inclusion_count = 0;
+  vsc_definition definition = vsc_default_definition();
   definition.materials = &passive;
   definition.material_count = 1;
   definition.volume = volume;
   definition.end_time = 1;
-  vsc_status status = vsc_block_mesh(&shape, &s->mesh, error);
-  if (status == VSC_OK) status = vsc_boundary(s->mesh, &s->boundary, error);
-  if (status == VSC_OK) status = vsc_model_build(s->mesh, NULL, &definition, &s->model, error);
-  if (status == VSC_OK) status = vsc_state_create(s->model, &s->state, error);
-  if (status != VSC_OK) return status;
-  s->number = vsc_model_node_numbers(s->model);
-  if (s->number == NULL || !VSC_NEW(s->unknown, 3 * s->model->node_count))
-    return vsc_fail_memory(error, "a block of the material");
-  pin(s);
-  return assemble(s, error);
+  status = vsc_model_build(b->mesh, b->axes, &definition, &b->model, error);
+  return status == VSC_OK ? vsc_state_create(b->model, &b->state, error) : status;
 }
 
-vsc_status vsc_sample_open(const vsc_material_def *material, vsc_volume_kind volume,
-                           vsc_sample **sample, vsc_error *error)
+static vsc_status make_arrays(block *b, vsc_error *error)
 {
-  *sample = NULL;
-  if (!VSC_NEW(*sample, 1)) return vsc_fail_memory(error, "a block of the material");
-  const vsc_status status = build(*sample, material, volume, error);
-  if (status == VSC_OK) return VSC_OK;
-  vsc_sample_close(*sample);
-  *sample = NULL;
+  b->size = 3 * b->mesh->node_count;
+  b->number = vsc_model_node_numbers(b->model);
+  b->K = gsl_matrix_calloc(b->size, b->size);
+  b->order = gsl_permutation_alloc(b->size);
+  b->load = gsl_vector_calloc(b->size);
+  b->displacement = gsl_vector_calloc(b->size);
+  if (b->number == NULL || b->K == NULL || b->order == NULL || b->load == NULL ||
+      b->displacement == NULL || !VSC_NEW(b->force, 8 * b->mesh->node_count))
+    return vsc_fail_memory(error, "a block");
+  return VSC_OK;
+}
+
+static void free_block(block *b)
+{
+  gsl_vector_free(b->displacement);
+  gsl_vector_free(b->load);
+  gsl_permutation_free(b->order);
+  gsl_matrix_free(b->K);
+  vsc_free(b->force);
+  vsc_free(b->number);
+  vsc_state_free(b->state);
+  vsc_model_free(b->model);
+  vsc_surface_free(&b->boundary);
+  vsc_axes_free(b->axes);
+  vsc_mesh_free(b->mesh);
+}
+
+// K_ij = -d f_i / d x_j
+static void fill_stiffness(block *b)
+{
+  const double h = 1e-5;  // mm: elements are 1 mm; its square and rounding over it are both 1e-11
+  double *x = b->state->x, *plus = b->force, *minus = plus + 4 * b->mesh->node_count;
+  for (size_t j = 0; j < b->size; j++) {
+    double *moved = &x[4 * (size_t)b->number[j / 3] + j % 3];
+    const double rest = *moved;
+    *moved = rest + h;
+    vsc_force(b->model, x, NULL, 0, &b->state->scratch, plus);
+    *moved = rest - h;
+    vsc_force(b->model, x, NULL, 0, &b->state->scratch, minus);
+    *moved = rest;
+    for (size_t i = 0; i < b->size; i++) {
+      const size_t p = 4 * (size_t)b->number[i / 3] + i % 3;
+      gsl_matrix_set(b->K, i, j, (minus[p] - plus[p]) / (2 * h));
+    }
+  }
+}
+
+// Adds w r r^T for the six rigid motions r: loads without force and moment don't move along them,
+// and K has an inverse.
+static void fix_rigid_motions(block *b)
+{
+  gsl_vector_const_view diagonal = gsl_matrix_const_diagonal(b->K);
+  const double weight = gsl_blas_dasum(&diagonal.vector) / (double)(b->size * b->size);
+  for (int k = 0; k < 6; k++) {
+    for (size_t i = 0; i < b->size; i++) {
+      const double *X = b->mesh->nodes + 3 * (i / 3);
+      const double unit[3] = {k % 3 == 0, k % 3 == 1, k % 3 == 2};
+      const double arm[3] = {X[0] - 2, X[1] - 2, X[2] - 2};
+      double turned[3];
+      vsc_cross(unit, arm, turned);
+      gsl_vector_set(b->load, i, k < 3 ? unit[i % 3] : turned[i % 3]);
+    }
+    gsl_blas_dger(weight, b->load, b->load, b->K);
+  }
+}
+
+// Area times outward normal of a boundary triangle.
+static void triangle_normal(const block *b, const uint32_t node[3], double n[3])
+{
+  const double *X = b->mesh->nodes, *first = X + 3 * (size_t)node[0];
+  double e[3], f[3];
+  vsc_subtract(X + 3 * (size_t)node[1], first, e);
+  vsc_subtract(X + 3 * (size_t)node[2], first, f);
+  vsc_cross(e, f, n);
+  for (int i = 0; i < 3; i++) n[i] /= 2;
+}
+
+// Tractions of the stress (3 x 3) on the boundary.
+static void fill_load(block *b, const double stress[9])
+{
+  gsl_vector_set_zero(b->load);
+  for (size_t t = 0; t < b->boundary.count; t++) {
+    const uint32_t *node = b->boundary.triangles + 3 * t;
+    double n[3];
+    triangle_normal(b, node, n);
+    for (int c = 0; c < 3; c++)
+      for (int i = 0; i < 3; i++)
+        *gsl_vector_ptr(b->load, 3 * (size_t)node[c] + i) += vsc_dot(stress + 3 * i, n) / 3;
+  }
+}
+
+// Mean strain (3 x 3) of the displaced block.
+static void read_strain(const block *b, double strain[9])
+{
+  memset(strain, 0, 9 * sizeof *strain);
+  for (size_t t = 0; t < b->boundary.count; t++) {
+    const uint32_t *node = b->boundary.triangles + 3 * t;
+    double n[3], u[3] = {0};
+    triangle_normal(b, node, n);
+    for (int c = 0; c < 3; c++)
+      for (int i = 0; i < 3; i++) u[i] += gsl_vector_get(b->displacement, 3 * node[c] + i) / 3;
+    for (int i = 0; i < 9; i++)
+      strain[i] += (u[i / 3] * n[i % 3] + u[i % 3] * n[i / 3]) / (2 * b->model->total_volume);
+  }
+}
+
+// Column `v` of S: the strain, in the frame, under the unit stress number v of the frame.
+static void measure_column(block *b, int v, double S[36])
+{
+  const int place[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {2, 0}, {0, 1}};
+  const double *R = b->axes->frames;  // rows f, s, n, the same in all elements
+  const double *d = R + 3 * place[v][0], *e = R + 3 * place[v][1];
+  double stress[9], strain[9], along[3];
+  for (int i = 0; i < 9; i++)
+    stress[i] = (d[i / 3] * e[i % 3] + e[i / 3] * d[i % 3]) / (v < 3 ? 2 : 1);
+  fill_load(b, stress);
+  gsl_linalg_LU_solve(b->K, b->order, b->load, b->displacement);
+  read_strain(b, strain);
+  for (int w = 0; w < 6; w++) {
+    const double *p = R + 3 * place[w][0], *q = R + 3 * place[w][1];
+    for (int i = 0; i < 3; i++) along[i] = vsc_dot(strain + 3 * i, q);
+    // the stiffness is symmetric but for rounding
+    const double value = (w < 3 ? 1 : 2) * vsc_dot(p, along) / 2;
+    S[6 * w + v] += value;
+    S[6 * v + w] += value;
+  }
+}
+
+vsc_status vsc_measure_compliance(const vsc_material_def *material, vsc_volume_kind volume,
+                                  double S[36], vsc_error *error)
+{
+  block b = {0};
+  vsc_status status = make_body(&b, material, volume, error);
+  if (status == VSC_OK) status = make_arrays(&b, error);
+  if (status == VSC_OK) {
+    int sign;
+    fill_stiffness(&b);
+    fix_rigid_motions(&b);
+    gsl_linalg_LU_decomp(b.K, b.order, &sign);
+    gsl_vector_const_view pivots = gsl_matrix_const_diagonal(b.K);
+    double least = INFINITY;
+    for (size_t i = 0; i < b.size; i++) least = fmin(least, fabs(gsl_matrix_get(b.K, i, i)));
+    if (!(least > 1e-9 * gsl_blas_dasum(&pivots.vector) / (double)b.size))
+      status = vsc_fail(error, VSC_NUMERICAL, "material %s: a block of it has free mechanisms",
+                        material->name);
+  }
+  memset(S, 0, 36 * sizeof *S);
+  for (int v = 0; status == VSC_OK && v < 6; v++) measure_column(&b, v, S);
+  free_block(&b);
   return status;
-}
-
-// The vector of area of a boundary triangle at rest.
-static void area_of(const vsc_sample *s, size_t t, double area[3])
-{
-  const double *x[3];
-  double first[3], second[3];
-  for (int c = 0; c < 3; c++)
-    x[c] = s->mesh->nodes + 3 * (size_t)s->boundary.triangles[3 * t + (size_t)c];
-  vsc_subtract(x[1], x[0], first);
-  vsc_subtract(x[2], x[0], second);
-  vsc_cross(first, second, area);
-  for (int i = 0; i < 3; i++) area[i] /= 2;
-}
-
-double vsc_sample_young(const vsc_sample *s, const double d[3])
-{
-  gsl_vector *u = gsl_vector_calloc(s->free);
-  for (size_t t = 0; t < s->boundary.count; t++) {
-    double area[3];
-    area_of(s, t, area);
-    for (int c = 0; c < 3; c++)
-      for (int i = 0; i < 3; i++) {
-        const size_t node = s->number[s->boundary.triangles[3 * t + (size_t)c]];
-        const int32_t k = s->unknown[3 * node + (size_t)i];
-        if (k >= 0)
-          gsl_vector_set(u, (size_t)k,
-                         gsl_vector_get(u, (size_t)k) + vsc_dot(area, d) * d[i] / 3);
-      }
-  }
-  gsl_linalg_cholesky_svx(s->stiffness, u);
-  // mean of d . grad u d = 1/V sum over the boundary of (u . d)(n . d)
-  double strain = 0;
-  for (size_t t = 0; t < s->boundary.count; t++) {
-    double area[3], along = 0;
-    area_of(s, t, area);
-    for (int c = 0; c < 3; c++)
-      for (int i = 0; i < 3; i++) {
-        const size_t node = s->number[s->boundary.triangles[3 * t + (size_t)c]];
-        const int32_t k = s->unknown[3 * node + (size_t)i];
-        if (k >= 0) along += gsl_vector_get(u, (size_t)k) * d[i] / 3;
-      }
-    strain += along * vsc_dot(area, d) / s->model->total_volume;
-  }
-  gsl_vector_free(u);
-  return 1 / strain;
-}
-
-void vsc_sample_close(vsc_sample *s)
-{
-  if (s == NULL) return;
-  gsl_matrix_free(s->stiffness);
-  vsc_free(s->unknown);
-  vsc_free(s->number);
-  vsc_surface_free(&s->boundary);
-  vsc_state_free(s->state);
-  vsc_model_free(s->model);
-  vsc_mesh_free(s->mesh);
-  vsc_free(s);
 }

@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The stiffness of a material as a block of irregular tets shows it.
+// The elasticity of a material as a block of it answers to loads: the force code put to the test.
 #ifndef VSC_TOOLS_CALIBRATE_MEASURE_H
 #define VSC_TOOLS_CALIBRATE_MEASURE_H
 
 #include "model/definition.h"
 
-typedef struct vsc_sample vsc_sample;  // opaque: a block of the material, its stiffness factorised
-
-// A block of 3 x 3 x 3 jittered bricks of 1 mm whose elements all have f, s, n along x, y, z. Its
-// stiffness at rest is taken from the forces of the simulation itself, by central differences. The
-// caller owns *sample. VSC_NUMERICAL when some deformation meets no resistance.
-vsc_status vsc_sample_open(const vsc_material_def *material, vsc_volume_kind volume,
-                           vsc_sample **sample, vsc_error *error);
-
-// Young's modulus along the unit vector `d`, kPa: tractions d (d . n) on the whole boundary, the mean
-// strain d . e d from the boundary's displacements.
-double vsc_sample_young(const vsc_sample *sample, const double d[3]);
-
-void vsc_sample_close(vsc_sample *sample);  // NULL is fine
+// Measures the compliance S (1/kPa; as in model/elasticity.h) of a passive `material` with shared
+// (`volume` NODAL) or own volumes of its elements on an irregular block of 320 tets whose fibre
+// frame lies askew to all edges. The stiffness matrix at rest is built by central differences of
+// vsc_force; for each of six unit stresses the tractions stress . n act on the whole boundary, GSL
+// solves for the displacements u (dense, rigid motions fixed), and the mean strain is
+//   e = 1/V sum over boundary triangles of sym(mean u (x) n) area.
+// Accurate to some 1e-8, times the volume modulus over the others. The material's regions,
+// inclusions and activation are left out. VSC_NUMERICAL when the block has free mechanisms.
+vsc_status vsc_measure_compliance(const vsc_material_def *material, vsc_volume_kind volume,
+                                  double S[36], vsc_error *error);
 
 #endif

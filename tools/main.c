@@ -31,8 +31,8 @@ static const verb verbs[] = {
     {"schema", vsc_verb_schema, false, "print a commented template of everything a scene can say"},
     {"generate", vsc_verb_generate, false, "make the meshes and angle maps that ship with viscera"},
     {"bench", vsc_verb_bench, true, "how many element updates a second this machine does"},
-    {"calibrate", vsc_verb_calibrate, false,
-     "elastic constants of springs, springs of elastic constants"},
+    {"calibrate", vsc_verb_calibrate, true,
+     "stiffness in every direction; springs for wanted moduli"},
     {"plot", run_plot, false, "draw the graphs and pictures of a simulation's results"},
 };
 

@@ -2,269 +2,396 @@
 #include "model/calibration.h"
 
 #include <gsl/gsl_eigen.h>
-#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
 #include <gsl/gsl_multifit.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/vec3.h"
 
-// Springs a fit may use: E_f, E_s, E_n, G_fs, G_sn, G_nf, K, then further axes.
-enum { BASIC = 7, MOST = BASIC + VSC_DIRECTIONS - 3, EQUATIONS = 36 };
+static const char axis_letter[] = "fsn";
 
-vsc_orthotropic vsc_isotropic(double young, double poisson)
+// ---- moduli
+
+vsc_status vsc_moduli_isotropic(double E, double nu, vsc_moduli *moduli, vsc_error *error)
 {
-  const double shear = young / (2 * (1 + poisson));
-  return (vsc_orthotropic){.young = {young, young, young},
-                           .shear = {shear, shear, shear},
-                           .poisson = {poisson, poisson, poisson}};
+  if (!(nu > -1 && nu < 0.5))
+    return vsc_fail(error, VSC_INPUT,
+                    "Poisson's ratio %g: give one above -1 and below 0.5 (at 0.5: incompressible)",
+                    nu);
+  for (int a = 0; a < 3; a++) {
+    moduli->young[a] = E;
+    moduli->shear[a] = E / (2 * (1 + nu));
+    moduli->poisson[a] = nu;
+  }
+  return vsc_moduli_check(moduli, error);
 }
 
-static vsc_status check_moduli(const vsc_orthotropic *wanted, vsc_error *error)
+// 4/D of numerics' closed form; it is 4 times the compliance's determinant on strains of no volume.
+static double triangle(const double a[3])
 {
-  static const char *const young[] = {"Young's modulus Y_f", "Young's modulus Y_s",
-                                      "Young's modulus Y_n"};
-  static const char *const shear[] = {"shear modulus G_fs", "shear modulus G_sn",
-                                      "shear modulus G_nf"};
-  for (int a = 0; a < 3; a++) {
-    if (!(wanted->young[a] > 0 && isfinite(wanted->young[a])))
-      return vsc_fail(error, VSC_INPUT, "%s is %g kPa: give a value above zero", young[a],
-                      wanted->young[a]);
-    if (!(wanted->shear[a] > 0 && isfinite(wanted->shear[a])))
-      return vsc_fail(error, VSC_INPUT, "%s is %g kPa: give a value above zero", shear[a],
-                      wanted->shear[a]);
-  }
+  double sum = 0;
+  for (int i = 0; i < 3; i++) sum += 2 * a[i] * a[(i + 1) % 3] - a[i] * a[i];
+  return sum;
+}
+
+static vsc_status check_triangle(const double young[3], const double a[3], vsc_error *error)
+{
+  int softest = 0;
+  for (int i = 1; i < 3; i++)
+    if (a[i] > a[softest]) softest = i;
+  if (triangle(a) > 1e-12 * a[softest] * a[softest]) return VSC_OK;
+  return vsc_fail(
+      error, VSC_INPUT,
+      "Young's modulus along %c, %g kPa: no incompressible material is so soft in one "
+      "direction beside %g and %g kPa in the others: 1/sqrt(Y) must be below the sum of "
+      "theirs",
+      axis_letter[softest], young[softest], young[(softest + 1) % 3], young[(softest + 2) % 3]);
+}
+
+static vsc_status check_positive(const char *what, const char *names, int width,
+                                 const double value[3], vsc_error *error)
+{
+  for (int i = 0; i < 3; i++)
+    if (!(value[i] > 0 && isfinite(value[i])))
+      return vsc_fail(error, VSC_INPUT, "%s modulus %.*s, %g kPa: give a value above zero", what,
+                      width, names + width * i, value[i]);
   return VSC_OK;
 }
 
-vsc_status vsc_compliance_of(const vsc_orthotropic *wanted, double S[36], vsc_error *error)
+static vsc_status check_young_and_shear(const vsc_moduli *moduli, vsc_error *error)
 {
-  const vsc_status status = check_moduli(wanted, error);
+  const vsc_status status = check_positive("Young's", "fsn", 1, moduli->young, error);
   if (status != VSC_OK) return status;
+  return check_positive("shear", "fssnnf", 2, moduli->shear, error);
+}
+
+vsc_status vsc_moduli_incompressible(double K, vsc_moduli *moduli, vsc_error *error)
+{
+  double a[3];
+  const vsc_status status = check_young_and_shear(moduli, error);
+  if (status != VSC_OK) return status;
+  for (int i = 0; i < 3; i++) {
+    a[i] = 1 / moduli->young[i] - 1 / (9 * K);
+    if (!(K > 0 && a[i] > 0))
+      return vsc_fail(error, VSC_INPUT,
+                      "volume modulus %g kPa: too small for a Young's modulus of %g kPa along %c; "
+                      "give some 100 times that for what is nearly incompressible",
+                      K, moduli->young[i], axis_letter[i]);
+  }
+  if (check_triangle(moduli->young, a, error) != VSC_OK) return VSC_INPUT;
+  for (int i = 0; i < 3; i++) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    moduli->poisson[i] = -moduli->young[i] * ((a[k] - a[i] - a[j]) / 2 + 1 / (9 * K));
+  }
+  return vsc_moduli_check(moduli, error);
+}
+
+vsc_status vsc_moduli_check(const vsc_moduli *moduli, vsc_error *error)
+{
+  const vsc_status status = check_young_and_shear(moduli, error);
+  if (status != VSC_OK) return status;
+  double determinant = 1, product = 2;
+  for (int a = 0; a < 3; a++) {
+    const int b = (a + 1) % 3;
+    const double nu = moduli->poisson[a], most = sqrt(moduli->young[a] / moduli->young[b]);
+    if (!(fabs(nu) < most))
+      return vsc_fail(error, VSC_INPUT,
+                      "Poisson's ratio %c%c, %g: with Young's moduli of %g and %g kPa it must be "
+                      "between -%g and %g",
+                      axis_letter[a], axis_letter[b], nu, moduli->young[a], moduli->young[b], most,
+                      most);
+    determinant -= nu * nu / (most * most);
+    product *= nu / most;
+  }
+  determinant -= product;
+  if (determinant > 1e-12) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT,
+                  "Poisson's ratios fs %g, sn %g, nf %g: together they belong to no material, some "
+                  "deformation would cost no energy (determinant %.3g); lower them, or say "
+                  "incompressible",
+                  moduli->poisson[0], moduli->poisson[1], moduli->poisson[2], determinant);
+}
+
+// Place of G_fs, G_sn, G_nf among the six.
+static const int shear_place[3] = {5, 3, 4};
+
+void vsc_moduli_compliance(const vsc_moduli *moduli, double S[36])
+{
   memset(S, 0, 36 * sizeof *S);
   for (int a = 0; a < 3; a++) {
-    const int b = (a + 1) % 3;
-    S[7 * a] = 1 / wanted->young[a];
-    S[6 * a + b] = S[6 * b + a] = -wanted->poisson[a] / wanted->young[a];
-    // pair a is (a, a + 1), whose shear has the number of the axis left over
-    S[7 * (3 + (a + 2) % 3)] = 1 / wanted->shear[a];
+    const int b = (a + 1) % 3, g = shear_place[a];
+    S[7 * a] = 1 / moduli->young[a];
+    S[6 * a + b] = S[6 * b + a] = -moduli->poisson[a] / moduli->young[a];
+    S[7 * g] = 1 / moduli->shear[a];
   }
-  double C[36];
-  if (vsc_invert_six(S, C, NULL) == VSC_OK) return VSC_OK;
-  return vsc_fail(error, VSC_INPUT,
-                  "Poisson's ratios nu_fs %g, nu_sn %g, nu_nf %g with Young's moduli %g, %g, %g kPa "
-                  "are no elastic material's: some deformation would release energy; give smaller "
-                  "ratios (isotropic: below 0.5), or --incompressible",
-                  wanted->poisson[0], wanted->poisson[1], wanted->poisson[2], wanted->young[0],
-                  wanted->young[1], wanted->young[2]);
 }
 
-vsc_orthotropic vsc_constants_of(const double S[36])
+vsc_moduli vsc_moduli_of(const double S[36])
 {
-  vsc_orthotropic o;
+  vsc_moduli moduli;
   for (int a = 0; a < 3; a++) {
-    const int b = (a + 1) % 3;
-    o.young[a] = 1 / S[7 * a];
-    o.shear[a] = 1 / S[7 * (3 + (a + 2) % 3)];
-    o.poisson[a] = -S[6 * a + b] * o.young[a];
+    const vsc_named_direction d = vsc_direction(a), e = vsc_direction((a + 1) % 3);
+    moduli.young[a] = vsc_young(S, d.d);
+    moduli.shear[a] = vsc_shear(S, d.d, e.d);
+    moduli.poisson[a] = vsc_poisson(S, d.d, e.d);
   }
-  return o;
+  return moduli;
 }
 
-// ---- the fit
-
-// Symmetric square root of S.
-static void root_of(const double S[36], double root[36])
+vsc_status vsc_axial_incompressible(const double young[3], double axial[3], vsc_error *error)
 {
-  double copy[36];
-  memcpy(copy, S, sizeof copy);
-  gsl_matrix_view view = gsl_matrix_view_array(copy, 6, 6);
-  double values[6], vectors[36];
-  gsl_vector_view value = gsl_vector_view_array(values, 6);
-  gsl_matrix_view vector = gsl_matrix_view_array(vectors, 6, 6);
-  gsl_eigen_symmv_workspace *workspace = gsl_eigen_symmv_alloc(6);
-  gsl_eigen_symmv(&view.matrix, &value.vector, &vector.matrix, workspace);
-  gsl_eigen_symmv_free(workspace);
-  for (int i = 0; i < 6; i++)
-    for (int j = 0; j < 6; j++) {
-      root[6 * i + j] = 0;
-      for (int k = 0; k < 6; k++)
-        root[6 * i + j] += sqrt(values[k]) * vectors[6 * i + k] * vectors[6 * j + k];
-    }
+  double a[3];
+  for (int i = 0; i < 3; i++) a[i] = 1 / young[i];
+  if (check_triangle(young, a, error) != VSC_OK) return VSC_INPUT;
+  for (int i = 0; i < 3; i++) axial[i] = 2 * (a[(i + 1) % 3] + a[(i + 2) % 3] - a[i]) / triangle(a);
+  return VSC_OK;
 }
 
-static void row_of(int spring, double row[6])
+// ---- the unknown constants
+
+enum { AXIAL = 0, ANGULAR = 3, VOLUME = 6, FACE = 7, SPACE = 10, UNKNOWNS = 11 };
+
+// The stiffness that constant `u` has at 1 kPa.
+static void unit_stiffness(int u, double C[36])
 {
-  static const double axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   static const double dilatation[6] = {1, 1, 1, 0, 0, 0};
-  if (spring < 3)
-    vsc_axis_row(axis[spring], row);
-  else if (spring < 6)
-    vsc_pair_row(axis[spring - 3], axis[(spring - 2) % 3], row);
-  else if (spring == 6)
-    memcpy(row, dilatation, sizeof dilatation);
-  else
-    vsc_axis_row(vsc_direction(spring - BASIC + 3).d, row);
-}
-
-// Column of the design matrix: (S^1/2 r)(S^1/2 r)^T.
-static void column_of(const double root[36], int spring, double column[EQUATIONS])
-{
-  double row[6], scaled[6] = {0};
-  row_of(spring, row);
-  for (int i = 0; i < 6; i++)
-    for (int j = 0; j < 6; j++) scaled[i] += root[6 * i + j] * row[j];
-  for (int i = 0; i < 6; i++)
-    for (int j = 0; j < 6; j++) column[6 * i + j] = scaled[i] * scaled[j];
-}
-
-typedef struct fit {
-  int count;
-  double column[MOST][EQUATIONS], target[EQUATIONS];
-  double m[MOST];
-  bool active[MOST];  // may differ from 0
-} fit;
-
-// Least squares within the active springs, into `trial` (0 elsewhere).
-static void solve_active(const fit *f, double trial[MOST])
-{
-  int list[MOST], count = 0;
-  for (int k = 0; k < f->count; k++) {
-    trial[k] = 0;
-    if (f->active[k]) list[count++] = k;
+  const int first = u < ANGULAR ? u : u < VOLUME ? u - ANGULAR : u < SPACE ? 3 + 2 * (u - FACE) : 9;
+  const int count = u < FACE ? 1 : u < SPACE ? 2 : 4;
+  double row[6];
+  memset(C, 0, 36 * sizeof *C);
+  for (int k = 0; k < count; k++) {
+    const vsc_named_direction d = vsc_direction(u == VOLUME ? 0 : first + k);
+    const vsc_named_direction e = vsc_direction((first + 1) % 3);
+    vsc_axis_row(d.d, row);
+    if (u >= ANGULAR && u < VOLUME) vsc_pair_row(d.d, e.d, row);
+    vsc_stiffness_add(C, 1, u == VOLUME ? dilatation : row);
   }
-  if (count == 0) return;
-  gsl_matrix *A = gsl_matrix_alloc(EQUATIONS, (size_t)count);
-  gsl_vector_const_view b = gsl_vector_const_view_array(f->target, EQUATIONS);
-  gsl_vector *x = gsl_vector_alloc((size_t)count);
-  gsl_matrix *covariance = gsl_matrix_alloc((size_t)count, (size_t)count);
-  gsl_multifit_linear_workspace *workspace = gsl_multifit_linear_alloc(EQUATIONS, (size_t)count);
-  double square;
-  for (int c = 0; c < count; c++)
-    for (int e = 0; e < EQUATIONS; e++)
-      gsl_matrix_set(A, (size_t)e, (size_t)c, f->column[list[c]][e]);
-  gsl_multifit_linear(A, &b.vector, x, covariance, &square, workspace);
-  for (int c = 0; c < count; c++) trial[list[c]] = gsl_vector_get(x, (size_t)c);
-  gsl_multifit_linear_free(workspace);
+}
+
+static double *constant_of(vsc_spring_constants *springs, int u)
+{
+  if (u < ANGULAR) return &springs->axial[u];
+  if (u < VOLUME) return &springs->angular[u - ANGULAR];
+  if (u == VOLUME) return &springs->volume_modulus;
+  return u < SPACE ? &springs->face[u - FACE] : &springs->space;
+}
+
+// C becomes L^-1 C L^-T, L L^T the wanted stiffness: 1 where it is as wanted.
+static void make_relative(const gsl_matrix *L, double C[36])
+{
+  gsl_matrix_view view = gsl_matrix_view_array(C, 6, 6);
+  gsl_blas_dtrsm(CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, 1, L, &view.matrix);
+  gsl_blas_dtrsm(CblasRight, CblasLower, CblasTrans, CblasNonUnit, 1, L, &view.matrix);
+}
+
+// The Cholesky factor of the wanted stiffness.
+static vsc_status factor_wanted(const vsc_moduli *moduli, double factor[36], vsc_error *error)
+{
+  double S[36];
+  vsc_status status = vsc_moduli_check(moduli, error);
+  if (status != VSC_OK) return status;
+  vsc_moduli_compliance(moduli, S);
+  status = vsc_invert_six(S, factor, error);
+  if (status != VSC_OK) return status;
+  gsl_matrix_view view = gsl_matrix_view_array(factor, 6, 6);
+  gsl_linalg_cholesky_decomp1(&view.matrix);
+  return VSC_OK;
+}
+
+vsc_status vsc_compare_springs(const vsc_moduli *moduli, vsc_spring_constants *springs,
+                               vsc_error *error)
+{
+  double factor[36], sum[36] = {0}, unit[36], values[6];
+  const vsc_status status = factor_wanted(moduli, factor, error);
+  if (status != VSC_OK) return status;
+  for (int u = 0; u < UNKNOWNS; u++) {
+    unit_stiffness(u, unit);
+    for (int i = 0; i < 36; i++) sum[i] += *constant_of(springs, u) * unit[i];
+  }
+  gsl_matrix_view L = gsl_matrix_view_array(factor, 6, 6), M = gsl_matrix_view_array(sum, 6, 6);
+  gsl_vector_view energies = gsl_vector_view_array(values, 6);
+  gsl_eigen_symm_workspace *work = gsl_eigen_symm_alloc(6);
+  if (work == NULL) return vsc_fail_memory(error, "a calibration");
+  make_relative(&L.matrix, sum);
+  gsl_eigen_symm(&M.matrix, &energies.vector, work);
+  gsl_eigen_symm_free(work);
+  gsl_vector_minmax(&energies.vector, &springs->least_energy, &springs->most_energy);
+  return VSC_OK;
+}
+
+// ---- least squares with non-negative unknowns
+
+// 36 rows for M - 1, and one for each further axis, so small that it only settles a draw.
+enum { ROWS = 36 + UNKNOWNS };
+
+typedef struct least_squares {
+  int count;      // of unknowns
+  gsl_matrix *A;  // ROWS x count, columns of unit length
+  gsl_vector *b, *residual;
+  gsl_vector *x, *trial;  // count: the answer so far, the next one
+  bool free[UNKNOWNS];    // the others are held at zero
+} least_squares;
+
+// The unknowns that are free, by GSL; the others 0.
+static vsc_status solve_free(least_squares *problem, vsc_error *error)
+{
+  int column[UNKNOWNS], count = 0;
+  for (int u = 0; u < problem->count; u++)
+    if (problem->free[u]) column[count++] = u;
+  gsl_vector_set_zero(problem->trial);
+  if (count == 0) return VSC_OK;
+  gsl_matrix *A = gsl_matrix_alloc(ROWS, count), *covariance = gsl_matrix_alloc(count, count);
+  gsl_vector *x = gsl_vector_alloc(count);
+  gsl_multifit_linear_workspace *work = gsl_multifit_linear_alloc(ROWS, count);
+  const bool fine = A != NULL && covariance != NULL && x != NULL && work != NULL;
+  if (fine) {
+    double square;
+    for (int c = 0; c < count; c++) {
+      gsl_vector_view from = gsl_matrix_column(problem->A, column[c]);
+      gsl_matrix_set_col(A, c, &from.vector);
+    }
+    gsl_multifit_linear(A, problem->b, x, covariance, &square, work);
+    for (int c = 0; c < count; c++) gsl_vector_set(problem->trial, column[c], gsl_vector_get(x, c));
+  }
+  gsl_matrix_free(A);
   gsl_matrix_free(covariance);
   gsl_vector_free(x);
-  gsl_matrix_free(A);
+  gsl_multifit_linear_free(work);
+  return fine ? VSC_OK : vsc_fail_memory(error, "a calibration");
 }
 
-// Residual target - sum m column; returns its norm.
-static double residual_of(const fit *f, double residual[EQUATIONS])
+// The unknown held at zero by whose growth the misfit falls fastest, or -1.
+static int most_wanted(least_squares *problem)
 {
-  double square = 0;
-  for (int e = 0; e < EQUATIONS; e++) {
-    residual[e] = f->target[e];
-    for (int k = 0; k < f->count; k++) residual[e] -= f->m[k] * f->column[k][e];
-    square += residual[e] * residual[e];
+  int best = -1;
+  double steepest = 1e-13;  // rounding: |b| is about 2, columns have length 1
+  gsl_vector_memcpy(problem->residual, problem->b);
+  gsl_blas_dgemv(CblasNoTrans, -1, problem->A, problem->x, 1, problem->residual);
+  for (int u = 0; u < problem->count; u++) {
+    double slope;
+    gsl_vector_view column = gsl_matrix_column(problem->A, u);
+    gsl_blas_ddot(&column.vector, problem->residual, &slope);
+    if (problem->free[u] || slope <= steepest) continue;
+    steepest = slope;
+    best = u;
   }
-  return sqrt(square);
+  return best;
 }
 
-// The inactive spring that would lower the residual fastest, or -1.
-static int most_wanted(const fit *f)
+// Goes from x towards the trial until the first unknown reaches zero, which is then held there.
+// Returns true when none did: x is the trial.
+static bool go_towards_trial(least_squares *problem)
 {
-  double residual[EQUATIONS], best = 1e-10;
-  int spring = -1;
-  residual_of(f, residual);
-  for (int k = 0; k < f->count; k++) {
-    double slope = 0, size = 0;
-    for (int e = 0; e < EQUATIONS; e++) {
-      slope += f->column[k][e] * residual[e];
-      size += f->column[k][e] * f->column[k][e];
-    }
-    if (f->active[k] || slope / sqrt(size) <= best) continue;
-    best = slope / sqrt(size);
-    spring = k;
+  double part = 1;
+  int hit = -1;
+  for (int u = 0; u < problem->count; u++) {
+    const double from = gsl_vector_get(problem->x, u), to = gsl_vector_get(problem->trial, u);
+    if (!problem->free[u] || to > 0) continue;
+    const double reach = from > 0 ? from / (from - to) : 0;
+    if (hit >= 0 && reach >= part) continue;
+    part = reach;
+    hit = u;
   }
-  return spring;
-}
-
-static void fit_moduli(fit *f)
-{
-  for (int round = 0; round < 10 * MOST; round++) {
-    const int spring = most_wanted(f);
-    if (spring < 0) return;
-    f->active[spring] = true;
-    for (int inner = 0; inner < MOST; inner++) {
-      double trial[MOST], part = 1;
-      int blocked = -1;
-      solve_active(f, trial);
-      // towards the trial as far as all stay above zero
-      for (int k = 0; k < f->count; k++)
-        if (f->active[k] && trial[k] <= 0 && f->m[k] / (f->m[k] - trial[k]) < part) {
-          part = f->m[k] / (f->m[k] - trial[k]);
-          blocked = k;
-        }
-      for (int k = 0; k < f->count; k++) f->m[k] += part * (trial[k] - f->m[k]);
-      if (blocked < 0) break;
-      f->active[blocked] = false;
-      f->m[blocked] = 0;
-    }
+  if (hit < 0) {
+    gsl_vector_memcpy(problem->x, problem->trial);
+    return true;
   }
+  for (int u = 0; u < problem->count; u++) {
+    double *x = gsl_vector_ptr(problem->x, u);
+    *x = fmax(0, *x + part * (gsl_vector_get(problem->trial, u) - *x));
+  }
+  problem->free[hit] = false;
+  gsl_vector_set(problem->x, hit, 0);
+  return false;
 }
 
-static vsc_status keep_axes(const fit *f, vsc_material_def *material, vsc_error *error)
+static vsc_status solve_not_negative(least_squares *problem, vsc_error *error)
 {
-  if (!VSC_NEW(material->axes, (size_t)f->count)) return vsc_fail_memory(error, "further axes");
-  for (int k = BASIC; k < f->count; k++) {
-    if (f->m[k] == 0) continue;
-    vsc_axis_def *axis = &material->axes[material->axis_count++];
-    *axis = (vsc_axis_def){.modulus = f->m[k]};
-    const vsc_named_direction direction = vsc_direction(k - BASIC + 3);
-    for (int i = 0; i < 3; i++)  // -1, 0 or 1 along f, s, n
-      axis->direction[i] = (direction.d[i] > 0.1) - (direction.d[i] < -0.1);
+  // Each round ends at a better answer, so that no set of free unknowns comes twice; the limit is
+  // for rounding.
+  for (int round = 0, next; round < 10 * UNKNOWNS && (next = most_wanted(problem)) >= 0; round++) {
+    problem->free[next] = true;
+    do {
+      if (solve_free(problem, error) != VSC_OK) return VSC_SYSTEM;
+    } while (!go_towards_trial(problem));
   }
   return VSC_OK;
 }
 
-vsc_status vsc_calibrate(const vsc_orthotropic *wanted, vsc_calibration_axes axes,
-                         vsc_material_def *material, double *residual, vsc_error *error)
+// Fills in the rows; `lengths` of the columns before they were made 1.
+static void fill_rows(least_squares *problem, const gsl_matrix *L, double least_volume,
+                      double lengths[UNKNOWNS])
 {
-  double S[36], root[36], left[EQUATIONS];
-  fit f = {.count = BASIC + (int)axes - 3};
-  const vsc_status status = vsc_compliance_of(wanted, S, error);
-  if (status != VSC_OK) return status;
-  root_of(S, root);
-  for (int k = 0; k < f.count; k++) column_of(root, k, f.column[k]);
-  for (int i = 0; i < 6; i++) f.target[7 * i] = 1;
-  fit_moduli(&f);
-  *residual = residual_of(&f, left);
-  for (int a = 0; a < 3; a++) {
-    material->axial[a] = f.m[a];
-    material->angular[a] = f.m[3 + a];
+  double unit[36];
+  for (int i = 0; i < 36; i += 7) gsl_vector_set(problem->b, i, 1);
+  for (int u = 0; u < problem->count; u++) {
+    unit_stiffness(u, unit);
+    make_relative(L, unit);
+    gsl_vector_const_view rows = gsl_vector_const_view_array(unit, 36);
+    lengths[u] = gsl_blas_dnrm2(&rows.vector);
+    for (int i = 0; i < 36; i++) {
+      gsl_matrix_set(problem->A, i, u, unit[i] / lengths[u]);
+      if (u == VOLUME) *gsl_vector_ptr(problem->b, i) -= least_volume * unit[i];
+    }
+    if (u >= FACE) gsl_matrix_set(problem->A, 36 + u, u, 1e-5);
   }
-  material->volume_modulus = f.m[6];
-  return axes > VSC_THREE_AXES ? keep_axes(&f, material, error) : VSC_OK;
 }
 
-vsc_status vsc_calibrate_incompressible(const vsc_orthotropic *wanted, double volume_modulus,
-                                        vsc_material_def *material, vsc_error *error)
+vsc_status vsc_calibrate(const vsc_moduli *moduli, int axes, vsc_spring_constants *springs,
+                         vsc_error *error)
 {
-  static const char *const names[] = {"f", "s", "n"};
-  const vsc_status status = check_moduli(wanted, error);
+  double factor[36], lengths[UNKNOWNS];
+  vsc_status status = factor_wanted(moduli, factor, error);
   if (status != VSC_OK) return status;
-  const double *Y = wanted->young, a = 1 / Y[0], b = 1 / Y[1], c = 1 / Y[2];
-  const double D = 4 / (2 * a * b + 2 * b * c + 2 * c * a - a * a - b * b - c * c);
-  if (!(D > 0))
-    return vsc_fail(error, VSC_INPUT,
-                    "Young's moduli %g, %g, %g kPa are no incompressible material's: their inverses "
-                    "must be such that the roots of two exceed the third's",
-                    Y[0], Y[1], Y[2]);
-  const double sums[3] = {b + c - a, c + a - b, a + b - c};
-  for (int i = 0; i < 3; i++) {
-    if (sums[i] < 0)
-      return vsc_fail(error, VSC_INPUT,
-                      "Young's modulus Y_%s = %g kPa is so far below the others (%g, %g, %g kPa) that "
-                      "its spring would have the modulus %g kPa; a spring cannot pull apart: raise it "
-                      "to %g kPa",
-                      names[i], Y[i], Y[0], Y[1], Y[2], D * sums[i] / 2,
-                      1 / (a + b + c - 1 / Y[i]));
-    material->axial[i] = D * sums[i] / 2;
-    material->angular[i] = wanted->shear[i];
+  const gsl_matrix_view L = gsl_matrix_view_array(factor, 6, 6);
+  const double *Y = moduli->young, least = 1e-3 * fmax(Y[0], fmax(Y[1], Y[2]));
+  const int count = axes == 3 ? FACE : axes == 9 ? SPACE : UNKNOWNS;
+  least_squares problem = {.count = count,
+                           .A = gsl_matrix_calloc(ROWS, count),
+                           .b = gsl_vector_calloc(ROWS),
+                           .residual = gsl_vector_calloc(ROWS),
+                           .x = gsl_vector_calloc(count),
+                           .trial = gsl_vector_calloc(count)};
+  if (problem.A == NULL || problem.b == NULL || problem.residual == NULL || problem.x == NULL ||
+      problem.trial == NULL)
+    status = vsc_fail_memory(error, "a calibration");
+  if (status == VSC_OK) {
+    fill_rows(&problem, &L.matrix, least, lengths);
+    status = solve_not_negative(&problem, error);
   }
-  material->volume_modulus = volume_modulus;
+  *springs = (vsc_spring_constants){0};
+  for (int u = 0; status == VSC_OK && u < count; u++) {
+    const double share = gsl_vector_get(problem.x, u);  // of the energy; less than that is rounding
+    *constant_of(springs, u) = share < 1e-12 ? 0 : share / lengths[u];
+  }
+  springs->volume_modulus += least;
+  gsl_matrix_free(problem.A);
+  gsl_vector_free(problem.b);
+  gsl_vector_free(problem.residual);
+  gsl_vector_free(problem.x);
+  gsl_vector_free(problem.trial);
+  return status == VSC_OK ? vsc_compare_springs(moduli, springs, error) : status;
+}
+
+// ---- as a material
+
+vsc_status vsc_material_of_springs(const vsc_spring_constants *springs, vsc_material_def *material,
+                                   vsc_error *error)
+{
+  *material = vsc_default_material();
+  memcpy(material->axial, springs->axial, sizeof material->axial);
+  memcpy(material->angular, springs->angular, sizeof material->angular);
+  material->volume_modulus = springs->volume_modulus;
+  if (!VSC_NEW(material->axes, VSC_DIRECTIONS - 3)) return vsc_fail_memory(error, "a material");
+  for (int k = 3; k < VSC_DIRECTIONS; k++) {
+    const double modulus = k < 9 ? springs->face[(k - 3) / 2] : springs->space;
+    if (modulus == 0) continue;
+    vsc_axis_def *axis = &material->axes[material->axis_count++];
+    axis->modulus = modulus;
+    // 1, -1, 0 read better than unit vectors
+    for (int i = 0; i < 3; i++) axis->direction[i] = round(vsc_direction(k).d[i]);
+  }
   return VSC_OK;
 }

@@ -1,53 +1,73 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From the constants of an orthotropic elastic material to springs.
+// From the moduli that an engineer measures to the constants of springs.
 #ifndef VSC_MODEL_CALIBRATION_H
 #define VSC_MODEL_CALIBRATION_H
 
 #include "model/elasticity.h"
 
-// Engineering constants in the frame f, s, n.
-typedef struct vsc_orthotropic {
-  double young[3];    // Y_f, Y_s, Y_n, kPa
-  double shear[3];    // G_fs, G_sn, G_nf, kPa
-  double poisson[3];  // nu_fs, nu_sn, nu_nf (nu_ab: shortening along b over lengthening along a)
-} vsc_orthotropic;
+// An orthotropic elastic material: S_aa = 1/Y_a, S_ab = -nu_ab / Y_a, S_44 = 1/G_sn, ...
+typedef struct vsc_moduli {
+  double young[3];  // Y_f, Y_s, Y_n, kPa
+  double shear[3];  // G_fs, G_sn, G_nf, kPa
+  double
+      poisson[3];  // nu_fs, nu_sn, nu_nf: pulled along the first, how much thinner along the second
+} vsc_moduli;
 
-// Young's modulus and Poisson's ratio of an isotropic material as an orthotropic one.
-vsc_orthotropic vsc_isotropic(double young, double poisson);
+// The isotropic material of Young's modulus E (kPa) and Poisson's ratio nu in (-1, 1/2).
+vsc_status vsc_moduli_isotropic(double E, double nu, vsc_moduli *moduli, vsc_error *error);
 
-// The compliance S (1/kPa): S_aa = 1/Y_a, S_ab = -nu_ab/Y_a, S_44 = 1/G_sn, S_55 = 1/G_nf,
-// S_66 = 1/G_fs. VSC_INPUT, naming the number, for one that no elastic material has: moduli not
-// above zero, a compliance that is not positive definite.
-vsc_status vsc_compliance_of(const vsc_orthotropic *wanted, double S[36], vsc_error *error);
+// Fills in the Poisson ratios of a material that resists all-round compression with the bulk
+// modulus `K` (kPa), alike in all directions; Young's moduli stay exactly as given:
+//   S_ab = (c - a - b)/2 + 1/(9K), a = 1/Y_a - 1/(9K) and likewise b, c for the other two axes.
+// VSC_INPUT where no material has these Young's moduli (sqrt a, sqrt b, sqrt c make no triangle) or
+// K is too small for them.
+vsc_status vsc_moduli_incompressible(double K, vsc_moduli *moduli, vsc_error *error);
 
-// Its constants back from a compliance.
-vsc_orthotropic vsc_constants_of(const double S[36]);
+// Refuses what no elastic material can have, naming the number: a modulus that is not above zero,
+// |nu_ab| >= sqrt(Y_a / Y_b), three ratios that together give energy away.
+vsc_status vsc_moduli_check(const vsc_moduli *moduli, vsc_error *error);
 
-// Which springs a calibration may use beside the three axes, their pairs and K.
-typedef enum vsc_calibration_axes {
-  VSC_THREE_AXES = 3,
-  VSC_NINE_AXES = 9,        // with the six face diagonals of the frame
-  VSC_THIRTEEN_AXES = 13,   // and the four space diagonals
-} vsc_calibration_axes;
+// The compliance; `moduli` must have passed vsc_moduli_check.
+void vsc_moduli_compliance(const vsc_moduli *moduli, double S[36]);
 
-// Springs whose stiffness C comes nearest to that of `wanted`: moduli m_i >= 0 that minimise
-//   |S^1/2 (sum_i m_i r_i r_i^T) S^1/2 - 1|  (Frobenius),
-// S the wanted compliance, so that each direction counts by its own stiffness; the rows r_i are
-// elasticity.h's. Least squares by GSL within the active set of Lawson & Hanson (Solving Least
-// Squares Problems, 1974, ch. 23). Isotropic materials of nu >= 0 come out exactly, E_a = 2 mu,
-// G = mu, K = lambda. `material` (vsc_default_material) gets axial, angular, volume_modulus and,
-// with more than three axes, `axes`, which the caller owns; *residual is the minimum. VSC_INPUT as
-// above.
-vsc_status vsc_calibrate(const vsc_orthotropic *wanted, vsc_calibration_axes axes,
-                         vsc_material_def *material, double *residual, vsc_error *error);
+// The same nine numbers of any compliance.
+vsc_moduli vsc_moduli_of(const double S[36]);
 
-// Springs of an incompressible material of the given Young's and shear moduli (poisson is not read), K =
-// volume_modulus being large: with a, b, c = 1/Y_f, 1/Y_s, 1/Y_n and
-// D = 4/(2ab + 2bc + 2ca - a^2 - b^2 - c^2),
-//   E_f = D (b + c - a)/2,  E_s = D (c + a - b)/2,  E_n = D (a + b - c)/2,
-// exact for K -> infinity. VSC_INPUT when the moduli are no stable material's (D < 0), or want a spring
-// of negative modulus (a > b + c).
-vsc_status vsc_calibrate_incompressible(const vsc_orthotropic *wanted, double volume_modulus,
-                                        vsc_material_def *material, vsc_error *error);
+// Springs: constants of a scene's material.
+typedef struct vsc_spring_constants {
+  double axial[3];        // E_f, E_s, E_n, kPa
+  double angular[3];      // G_fs, G_sn, G_nf, kPa
+  double volume_modulus;  // K, kPa
+  double face[3];         // of the two face diagonals f+s and f-s each, then s+-n, n+-f, kPa
+  double space;           // of each of the four space diagonals, kPa
+  // The energy of these springs over the wanted one, in the strain where it is least and where it
+  // is largest: 1 and 1 where everything is matched.
+  double least_energy, most_energy;
+} vsc_spring_constants;
+
+// The incompressible limit in closed form: on e_f + e_s + e_n = 0 three axial springs make any
+// three Young's moduli. With a, b, c = 1/Y_f, 1/Y_s, 1/Y_n:
+//   D = 4/(2ab + 2bc + 2ca - a^2 - b^2 - c^2), E_f = D (b + c - a)/2, and cyclically.
+// One of them is negative where a > b + c: no spring. VSC_INPUT unless D > 0.
+vsc_status vsc_axial_incompressible(const double young[3], double axial[3], vsc_error *error);
+
+// The springs nearest to `moduli`, none with a negative constant: with M = C_wanted^-1/2 C_springs
+// C_wanted^-1/2 they minimise |M - 1| (Frobenius), the relative error of the energy over all
+// strains; linear least squares with non-negative unknowns (Lawson & Hanson's active set on GSL's
+// solver). `axes`: 3 (f, s, n), 9 (and the face diagonals) or 13 (and the space diagonals); of
+// equally good answers the one that puts least into the further axes. K is at least a thousandth of
+// the largest Young's modulus, because a scene needs one above zero.
+// Exact with three axes where C_fs = C_sn = C_nf >= 0 and C_aa > C_ab: all isotropic materials with
+// nu > 0 (E_a = 2 mu, G = mu, K = lambda) are such.
+vsc_status vsc_calibrate(const vsc_moduli *moduli, int axes, vsc_spring_constants *springs,
+                         vsc_error *error);
+
+// Fills in least_energy and most_energy of springs that came from elsewhere.
+vsc_status vsc_compare_springs(const vsc_moduli *moduli, vsc_spring_constants *springs,
+                               vsc_error *error);
+
+// The springs as a material, its further axes among them (released with vsc_free(material->axes)).
+vsc_status vsc_material_of_springs(const vsc_spring_constants *springs, vsc_material_def *material,
+                                   vsc_error *error);
 
 #endif

@@ -18,6 +18,7 @@ enum { PATH = 4096 };
 
 typedef struct request {
   const char *folder;
+  const char *polar, *title;  // instead: curves of `viscera calibrate`
   char output[PATH];
   char series[PATH];   // the PVD
   char signals[PATH];  // the CSV
@@ -39,10 +40,13 @@ static void print_help(void)
       "      --from X,Y,Z   the direction from which to look, across the axis (widest view)\n"
       "      --whole        don't cut the tissue open\n"
       "      --view, --curves   first of all: several results in one picture, see --view --help\n"
+      "      --polar CSV    instead of results: the curves that `viscera calibrate --picture` left\n"
+      "      --title TEXT   their title\n"
       "  -h, --help         this text\n\n"
       "Examples:\n"
       "  viscera plot beat\n"
-      "  viscera plot --axis 0,1,0 --whole -o heart.png results");
+      "  viscera plot --axis 0,1,0 --whole -o heart.png results\n"
+      "  viscera plot --polar muscle.csv -o muscle.png");
 }
 
 static int fail(const vsc_error *error)
@@ -205,6 +209,12 @@ static vsc_status read_option(int option, request *wish, vsc_error *error)
     case 'w':
       wish->whole = true;
       return VSC_OK;
+    case 'p':
+      wish->polar = optarg;
+      return VSC_OK;
+    case 'T':
+      wish->title = optarg;
+      return VSC_OK;
     default:
       return vsc_fail(error, VSC_INPUT, "`viscera plot --help` lists the options");
   }
@@ -212,15 +222,15 @@ static vsc_status read_option(int option, request *wish, vsc_error *error)
 
 int main(int argc, char **argv)
 {
-  if (argc == 5 && strcmp(argv[1], "--polar") == 0) return vsc_polar_draw(argv[2], argv[4]);
   static const struct option options[] = {
       {"output", required_argument, NULL, 'o'}, {"at", required_argument, NULL, 't'},
       {"axis", required_argument, NULL, 'a'},   {"from", required_argument, NULL, 'f'},
       {"whole", no_argument, NULL, 'w'},        {"help", no_argument, NULL, 'h'},
-      {"version", no_argument, NULL, 'v'},      {0}};
+      {"version", no_argument, NULL, 'v'},      {"polar", required_argument, NULL, 'p'},
+      {"title", required_argument, NULL, 'T'},  {0}};
   if (argc > 1 && (strcmp(argv[1], "--view") == 0 || strcmp(argv[1], "--curves") == 0))
     return vsc_plot_several(argc - 1, argv + 1);
-  request wish = {.axis = {0, 0, 1}, .time = NAN};
+  request wish = {.title = "", .axis = {0, 0, 1}, .time = NAN};
   vsc_error error;
   for (int option; (option = getopt_long(argc, argv, "o:h", options, NULL)) != -1;) {
     if (option == 'h') {
@@ -232,6 +242,14 @@ int main(int argc, char **argv)
       return VSC_OK;
     }
     if (read_option(option, &wish, &error) != VSC_OK) return fail(&error);
+  }
+  if (wish.polar != NULL) {
+    if (wish.output[0] == '\0' || argc != optind) {
+      vsc_fail(&error, VSC_INPUT, "--polar: give the PNG by -o, and no folder");
+      return fail(&error);
+    }
+    return vsc_polar_draw(wish.polar, wish.title, wish.output, &error) == VSC_OK ? VSC_OK
+                                                                                 : fail(&error);
   }
   if (argc - optind != 1) {
     vsc_fail(&error, VSC_INPUT, "give one folder of results; `viscera plot --help` tells more");

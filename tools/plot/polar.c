@@ -1,147 +1,179 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/plot/polar.h"
 
-#include <cairo.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/status.h"
+#include "tools/plot/ink.h"
+#include "tools/plot/signals.h"
 
-enum { ROWS = 400, COLUMNS = 10, SIZE = 420, HEIGHT = 500 };
+enum { WIDTH = 1500, HEIGHT = 610, HEAD = 96, RADIUS = 205, PANEL = WIDTH / 3, CURVES = 3 };
 
-typedef struct polar_table {
-  int rows;
-  bool wanted;
-  double values[ROWS][COLUMNS];
-  double most;
-} polar_table;
+static const char *const curve_names[CURVES] = {"wanted", "springs", "measured"};
+static const char *const curve_texts[CURVES] = {"wanted", "springs, closed form",
+                                                "measured on a mesh"};
+static const double colours[CURVES][3] = {
+    {0.45, 0.45, 0.48}, {0.13, 0.40, 0.67}, {0.70, 0.09, 0.17}};
+static const char *const axis_names[3] = {"f", "s", "n"};
 
-static bool read_table(const char *file, polar_table *table)
+typedef struct polar {
+  const vsc_signals *table;
+  const double *plane, *angle, *curve[CURVES];
+  bool drawn[CURVES];  // some value is finite
+  double outer;        // kPa at the outer circle
+} polar;
+
+static vsc_status find_columns(const char *csv, const vsc_signals *table, polar *p,
+                               vsc_error *error)
 {
-  char line[1024];
-  FILE *stream = fopen(file, "r");
-  if (stream == NULL) return false;
-  if (fgets(line, sizeof line, stream) == NULL) line[0] = '\0';
-  table->wanted = strstr(line, "wanted") != NULL;
-  while (table->rows < ROWS && fgets(line, sizeof line, stream) != NULL) {
-    double *v = table->values[table->rows];
-    const int found = sscanf(line, "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", &v[0], &v[1], &v[2],
-                             &v[3], &v[4], &v[5], &v[6], &v[7], &v[8], &v[9]);
-    if (found != (table->wanted ? 10 : 7)) break;
-    for (int c = 1; c < found; c++) table->most = fmax(table->most, v[c]);
-    table->rows++;
+  p->table = table;
+  p->plane = vsc_signals_find(table, "plane");
+  p->angle = vsc_signals_find(table, "angle");
+  double largest = 0;
+  for (int k = 0; k < CURVES; k++) {
+    p->curve[k] = vsc_signals_find(table, curve_names[k]);
+    for (size_t r = 0; p->curve[k] != NULL && r < table->rows; r++)
+      if (isfinite(p->curve[k][r])) {
+        largest = fmax(largest, p->curve[k][r]);
+        p->drawn[k] = true;
+      }
   }
-  fclose(stream);
-  return table->rows > 2 && table->most > 0;
+  if (p->plane == NULL || p->angle == NULL || !(largest > 0))
+    return vsc_fail(error, VSC_INPUT,
+                    "%s: expected the columns plane, angle, wanted, springs, measured, as `viscera "
+                    "calibrate --picture` writes them",
+                    csv);
+  // the outer circle at 1, 2 or 5 times a power of ten, or a multiple of its fifth
+  const double power = pow(10, floor(log10(largest)));
+  p->outer = power;
+  for (double step = 0.2; p->outer < largest; step = p->outer / power < 2 ? 0.2 : 1)
+    p->outer += step * power;
+  return VSC_OK;
 }
 
-// A round number not above a quarter of `most`.
-static double tick_of(double most)
+static void use_colour(cairo_t *cairo, const double colour[3])
 {
-  const double decade = pow(10, floor(log10(most / 4)));
-  const double ratio = most / 4 / decade;
-  return decade * (ratio >= 5 ? 5 : ratio >= 2 ? 2 : 1);
+  cairo_set_source_rgb(cairo, colour[0], colour[1], colour[2]);
 }
 
-static void draw_grid(cairo_t *cairo, const polar_table *table, int plane, double scale)
+// Circles with their moduli, and the two axes of the plane.
+static void draw_grid(const polar *p, cairo_t *cairo, int plane)
 {
-  static const char *const axes[3][2] = {{"f", "s"}, {"s", "n"}, {"n", "f"}};
+  enum { CIRCLES = 4 };
+  static const double grid[3] = {0.87, 0.87, 0.89};
   char text[32];
-  const double tick = tick_of(table->most);
   cairo_set_line_width(cairo, 1);
-  cairo_set_font_size(cairo, 13);
-  for (double r = tick; r <= table->most * 1.05; r += tick) {
-    cairo_set_source_rgb(cairo, 0.85, 0.85, 0.85);
-    cairo_arc(cairo, 0, 0, r * scale, 0, 2 * M_PI);
+  for (int spoke = 0; spoke < 12; spoke++) {
+    use_colour(cairo, grid);
+    cairo_move_to(cairo, 0, 0);
+    cairo_line_to(cairo, RADIUS * cos(spoke * M_PI / 6), RADIUS * sin(spoke * M_PI / 6));
     cairo_stroke(cairo);
-    snprintf(text, sizeof text, "%g", r);
-    cairo_set_source_rgb(cairo, 0.5, 0.5, 0.5);
-    cairo_move_to(cairo, r * scale * 0.72 + 2, -r * scale * 0.72 - 2);
-    cairo_show_text(cairo, text);
   }
-  const double end = table->most * 1.08 * scale;
-  cairo_set_source_rgb(cairo, 0.3, 0.3, 0.3);
-  cairo_move_to(cairo, -end, 0);
-  cairo_line_to(cairo, end, 0);
-  cairo_move_to(cairo, 0, -end);
-  cairo_line_to(cairo, 0, end);
-  cairo_stroke(cairo);
-  cairo_set_font_size(cairo, 18);
-  cairo_move_to(cairo, end + 4, 6);
-  cairo_show_text(cairo, axes[plane][0]);
-  cairo_move_to(cairo, -4, -end - 6);
-  cairo_show_text(cairo, axes[plane][1]);
+  for (int c = 1; c <= CIRCLES; c++) {
+    use_colour(cairo, grid);
+    cairo_new_sub_path(cairo);
+    cairo_arc(cairo, 0, 0, c * RADIUS / (double)CIRCLES, 0, 2 * M_PI);
+    cairo_stroke(cairo);
+    snprintf(text, sizeof text, c == CIRCLES ? "%g kPa" : "%g", c * p->outer / CIRCLES);
+    // beside the spoke of 75 degrees
+    const double r = c * RADIUS / (double)CIRCLES;
+    vsc_write_text(cairo, r * cos(1.31) + 2, -r * sin(1.31) - 3, 12, VSC_FAINT, 0, text);
+  }
+  vsc_write_text(cairo, RADIUS + 10, 6, 18, VSC_INK, 0, axis_names[plane]);
+  vsc_write_text(cairo, 0, -RADIUS - 10, 18, VSC_INK, 0.5, axis_names[(plane + 1) % 3]);
 }
 
-// Column `c` as a line, or as dots on every second row.
-static void draw_curve(cairo_t *cairo, const polar_table *table, int c, double scale, bool dots)
+// One curve: a line, dashed what is wanted; dots what is measured.
+static void draw_curve(const polar *p, cairo_t *cairo, int plane, int k)
 {
-  cairo_new_path(cairo);  // a text leaves a point
-  for (int r = 0; r < table->rows; r++) {
-    const double angle = table->values[r][0] * M_PI / 180, size = table->values[r][c] * scale;
-    const double x = size * cos(angle), y = -size * sin(angle);
-    if (dots && r % 2 == 0) {
-      cairo_new_sub_path(cairo);
-      cairo_arc(cairo, x, y, 2.6, 0, 2 * M_PI);
-    } else if (!dots) {
+  const double dash[2] = {9, 6};
+  use_colour(cairo, colours[k]);
+  cairo_set_line_width(cairo, k == 0 ? 5 : 2.5);
+  cairo_set_dash(cairo, dash, k == 0 ? 2 : 0, 0);
+  cairo_new_path(cairo);
+  for (size_t r = 0; r < p->table->rows; r++) {
+    const double modulus = p->curve[k][r], angle = p->angle[r] * M_PI / 180;
+    if ((int)p->plane[r] != plane || !isfinite(modulus)) continue;
+    const double x = modulus / p->outer * RADIUS * cos(angle);
+    const double y = -modulus / p->outer * RADIUS * sin(angle);
+    if (k < 2) {
       cairo_line_to(cairo, x, y);
+    } else {
+      cairo_new_sub_path(cairo);
+      cairo_arc(cairo, x, y, 4, 0, 2 * M_PI);
+      cairo_fill(cairo);
     }
   }
-  if (dots)
-    cairo_fill(cairo);
-  else
-    cairo_stroke(cairo);
+  cairo_stroke(cairo);
+  cairo_set_dash(cairo, dash, 0, 0);
 }
 
-static void draw_legend(cairo_t *cairo, bool wanted)
+static void draw_legend(const polar *p, cairo_t *cairo)
 {
-  cairo_set_font_size(cairo, 15);
-  cairo_set_source_rgb(cairo, 0.10, 0.35, 0.65);
-  cairo_move_to(cairo, 20, HEIGHT - 18);
-  cairo_show_text(cairo, "Young's modulus of the springs, kPa (closed form)");
-  cairo_set_source_rgb(cairo, 0.80, 0.25, 0.15);
-  cairo_move_to(cairo, 440, HEIGHT - 18);
-  cairo_show_text(cairo, "\u2022 measured on a block of irregular tets");
-  cairo_set_source_rgb(cairo, 0.15, 0.55, 0.25);
-  cairo_move_to(cairo, 800, HEIGHT - 18);
-  if (wanted) cairo_show_text(cairo, "- - wanted");
-}
-
-int vsc_polar_draw(const char *file, const char *picture)
-{
-  static polar_table table;
-  static const double dash[] = {6, 5};
-  if (!read_table(file, &table)) {
-    fprintf(stderr, "viscera: plot: %s: is no table of moduli against angles\n", file);
-    return VSC_INPUT;
+  const double dash[2] = {9, 6};
+  double x = 36;
+  for (int k = 0; k < CURVES; k++) {
+    if (!p->drawn[k]) continue;
+    cairo_text_extents_t extents;
+    use_colour(cairo, colours[k]);
+    if (k < 2) {
+      cairo_set_line_width(cairo, k == 0 ? 5 : 2.5);
+      cairo_set_dash(cairo, dash, k == 0 ? 2 : 0, 0);
+      cairo_move_to(cairo, x, 69);
+      cairo_rel_line_to(cairo, 34, 0);
+      cairo_stroke(cairo);
+      cairo_set_dash(cairo, dash, 0, 0);
+    } else {
+      cairo_arc(cairo, x + 17, 69, 4, 0, 2 * M_PI);
+      cairo_fill(cairo);
+    }
+    vsc_write_text(cairo, x + 44, 74, 15, VSC_INK, 0, curve_texts[k]);
+    cairo_text_extents(cairo, curve_texts[k], &extents);
+    x += 44 + extents.x_advance + 36;
   }
-  cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, 3 * SIZE, HEIGHT);
-  cairo_t *cairo = cairo_create(surface);
+}
+
+static void draw_page(const polar *p, const char *title, cairo_t *cairo)
+{
+  char text[256];
   cairo_set_source_rgb(cairo, 1, 1, 1);
   cairo_paint(cairo);
-  cairo_select_font_face(cairo, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-  const double scale = 0.40 * SIZE / table.most;
-  for (int p = 0; p < 3; p++) {
+  vsc_use_font(cairo, CAIRO_FONT_WEIGHT_BOLD);
+  snprintf(text, sizeof text, "Young's modulus by direction%s%s", title[0] != '\0' ? ": " : "",
+           title);
+  vsc_write_text(cairo, 36, 42, 24, VSC_INK, 0, text);
+  vsc_use_font(cairo, CAIRO_FONT_WEIGHT_NORMAL);
+  draw_legend(p, cairo);
+  for (int plane = 0; plane < 3; plane++) {
     cairo_save(cairo);
-    cairo_translate(cairo, SIZE * (p + 0.5), 0.52 * SIZE);
-    draw_grid(cairo, &table, p, scale);
-    cairo_set_line_width(cairo, 2.2);
-    cairo_set_source_rgb(cairo, 0.10, 0.35, 0.65);
-    draw_curve(cairo, &table, 1 + p, scale, false);
-    cairo_set_source_rgb(cairo, 0.15, 0.55, 0.25);
-    cairo_set_dash(cairo, dash, 2, 0);
-    if (table.wanted) draw_curve(cairo, &table, 7 + p, scale, false);
-    cairo_set_source_rgb(cairo, 0.80, 0.25, 0.15);
-    draw_curve(cairo, &table, 4 + p, scale, true);
+    cairo_translate(cairo, PANEL * plane + PANEL / 2, HEAD + (HEIGHT - HEAD) / 2 + 12);
+    draw_grid(p, cairo, plane);
+    for (int k = 0; k < CURVES; k++)
+      if (p->drawn[k]) draw_curve(p, cairo, plane, k);
     cairo_restore(cairo);
   }
-  draw_legend(cairo, table.wanted);
-  cairo_destroy(cairo);
-  const cairo_status_t status = cairo_surface_write_to_png(surface, picture);
-  cairo_surface_destroy(surface);
-  if (status == CAIRO_STATUS_SUCCESS) return VSC_OK;
-  fprintf(stderr, "viscera: plot: %s: %s\n", picture, cairo_status_to_string(status));
-  return VSC_SYSTEM;
+}
+
+vsc_status vsc_polar_draw(const char *csv, const char *title, const char *file, vsc_error *error)
+{
+  vsc_signals *table = NULL;
+  polar p = {0};
+  vsc_status status = vsc_signals_read(csv, &table, error);
+  if (status == VSC_OK) status = find_columns(csv, table, &p, error);
+  if (status == VSC_OK) {
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, WIDTH, HEIGHT);
+    cairo_t *cairo = cairo_create(surface);
+    if (cairo_status(cairo) != CAIRO_STATUS_SUCCESS) {
+      status = vsc_fail_memory(error, "the picture");
+    } else {
+      draw_page(&p, title, cairo);
+      status = vsc_write_png(surface, file, error);
+    }
+    cairo_destroy(cairo);
+    cairo_surface_destroy(surface);
+  }
+  vsc_signals_free(table);
+  return status;
 }
