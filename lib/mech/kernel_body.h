@@ -7,7 +7,7 @@
 #include "mech/kernel_common.h"
 #include "mech/kernel_sets.h"
 #include "mech/kernel_tets.h"
-// the tets' helpers are used by these
+// what the tets have is used by these
 #include "mech/kernel_paper.h"
 #include "mech/kernel_solid.h"
 #include "mech/kernel_surface.h"
