@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reading surfaces and lines; vtk_write.cc writes them.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -130,8 +131,8 @@ vsc_status fill_polydata(const char *file, vtkPolyData *data, const pieces &cut,
     if (!std::isfinite(made->points[i]))
       return vsc_fail(error, VSC_INPUT, "%s: point %zu is not finite: write it again", file, i / 3);
   }
-  std::memcpy(made->triangles, cut.triangles.data(), cut.triangles.size() * sizeof(uint32_t));
-  std::memcpy(made->segments, cut.segments.data(), cut.segments.size() * sizeof(uint32_t));
+  std::copy(cut.triangles.begin(), cut.triangles.end(), made->triangles);
+  std::copy(cut.segments.begin(), cut.segments.end(), made->segments);
   made->cut_polygons = cut.cut_polygons;
   made->cut_strips = cut.cut_strips;
   made->vertices = cut.vertices;
