@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `viscera measure`: how a slice of the tissue has moved, turned and changed its size.
 #include <getopt.h>
-#include <glob.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,11 +8,9 @@
 #include <sys/stat.h>
 
 #include "base/vec3.h"
-#include "io/pvd.h"
 #include "io/vtk.h"
+#include "tools/results.h"
 #include "tools/verbs.h"
-
-enum { PATH = 4096 };
 
 typedef struct wish {
   int axis;             // 0 to 2: the slice lies across it; -1: all nodes
@@ -119,21 +116,16 @@ static vsc_status measure_file(const wish *wish, const char *file, double time, 
 
 static vsc_status measure_folder(const wish *wish, const char *folder, vsc_error *error)
 {
-  char pattern[PATH], file[2 * PATH];
-  glob_t found = {0};
-  vsc_pvd *series = NULL;
-  snprintf(pattern, sizeof pattern, "%s/*.pvd", folder);
-  if (glob(pattern, 0, NULL, &found) != 0)
-    return vsc_fail(error, VSC_INPUT, "%s: there is no series (*.pvd)", folder);
-  vsc_status status = vsc_pvd_open(found.gl_pathv[0], HUGE_VAL, &series, error);
-  globfree(&found);
+  vsc_results results;
+  char file[2 * VSC_PATH];
+  vsc_status status = vsc_results_open(folder, &results, error);
   if (status != VSC_OK) return status;
-  const size_t count = vsc_pvd_count(series);
-  for (size_t f = wish->frames || count == 0 ? 0 : count - 1; f < count && status == VSC_OK; f++) {
-    snprintf(file, sizeof file, "%s/%s", folder, vsc_pvd_frame(series, f));
-    status = measure_file(wish, file, vsc_pvd_time(series, f), error);
+  const size_t count = vsc_pvd_count(results.series);
+  for (size_t f = wish->frames ? 0 : count - 1; f < count && status == VSC_OK; f++) {
+    vsc_results_file(&results, f, file);
+    status = measure_file(wish, file, vsc_pvd_time(results.series, f), error);
   }
-  vsc_pvd_free(series);
+  vsc_results_close(&results);
   return status;
 }
 

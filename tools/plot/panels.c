@@ -2,7 +2,6 @@
 #include "tools/plot/panels.h"
 
 #include <cairo.h>
-#include <glob.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,11 +9,11 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
-#include "io/pvd.h"
 #include "io/vtk.h"
 #include "tools/plot/ink.h"
+#include "tools/results.h"
 
-enum { PATH = 4096, WIDTH = 1500, MARGIN = 24, HEAD = 56, CAPTION = 30, FOOT = 84, FINE = 3 };
+enum { WIDTH = 1500, MARGIN = 24, HEAD = 56, CAPTION = 30, FOOT = 84, FINE = 3 };
 enum { TALLEST = 560 };  // of a panel's picture, pixels
 
 // A panel's mesh and what is drawn of it.
@@ -27,27 +26,15 @@ typedef struct loaded {
 
 // ---- reading
 
-static vsc_status frame_of(const char *folder, double time, char file[PATH], vsc_error *error)
+static vsc_status frame_of(const char *folder, double time, char file[2 * VSC_PATH],
+                           vsc_error *error)
 {
-  char pattern[PATH];
-  glob_t found = {0};
-  vsc_pvd *series = NULL;
-  snprintf(pattern, sizeof pattern, "%s/*.pvd", folder);
-  if (glob(pattern, 0, NULL, &found) != 0)
-    return vsc_fail(error, VSC_INPUT, "%s: there is no series (*.pvd)", folder);
-  vsc_status status = vsc_pvd_open(found.gl_pathv[0], HUGE_VAL, &series, error);
-  globfree(&found);
+  vsc_results results;
+  const vsc_status status = vsc_results_open(folder, &results, error);
   if (status != VSC_OK) return status;
-  const size_t count = vsc_pvd_count(series);
-  size_t best = count - 1;
-  for (size_t f = 0; f < count && !isnan(time); f++)
-    if (fabs(vsc_pvd_time(series, f) - time) < fabs(vsc_pvd_time(series, best) - time)) best = f;
-  if (count == 0)
-    status = vsc_fail(error, VSC_INPUT, "%s: the series has no frames", folder);
-  else
-    snprintf(file, PATH, "%s/%s", folder, vsc_pvd_frame(series, best));
-  vsc_pvd_free(series);
-  return status;
+  vsc_results_file(&results, vsc_results_nearest(&results, time), file);
+  vsc_results_close(&results);
+  return VSC_OK;
 }
 
 static double length_of(const vsc_array *array, size_t tuple)
@@ -92,7 +79,7 @@ static vsc_status read_values(const char *file, const char *name, loaded *panel,
 static vsc_status load(const vsc_panels *panels, size_t k, loaded *panel, vsc_error *error)
 {
   static const double upwards[3] = {0, 0, 1};
-  char file[PATH];
+  char file[2 * VSC_PATH];
   struct stat facts;
   const char *source = panels->items[k].source;
   vsc_status status = VSC_OK;

@@ -2,26 +2,23 @@
 // `viscera-plot DIR`, also `viscera plot DIR`: graphs and pictures of a simulation's results. A
 // program of its own, because PLplot and cairo should not be loaded by simulations.
 #include <getopt.h>
-#include <glob.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/pvd.h"
 #include "io/vtk.h"
 #include "tools/plot/page.h"
 #include "tools/plot/polar.h"
 #include "tools/plot/several.h"
-
-enum { PATH = 4096 };
+#include "tools/results.h"
 
 typedef struct request {
   const char *folder;
   const char *polar, *title;  // instead: curves of `viscera calibrate`
-  char output[PATH];
-  char series[PATH];   // the PVD
-  char signals[PATH];  // the CSV
+  char output[VSC_PATH];
+  vsc_results results;
+  char signals[VSC_PATH];  // the CSV
   double axis[3], from[3];
   bool from_given, whole;
   double time;  // s; NAN: where the cavity is smallest
@@ -78,27 +75,13 @@ static vsc_status read_time(const char *text, double *time, vsc_error *error)
 // Finds the files of the folder.
 static vsc_status find_files(request *wish, vsc_error *error)
 {
-  char pattern[PATH];
-  size_t length = strlen(wish->folder);
-  while (length > 1 && wish->folder[length - 1] == '/') length--;
-  if (length + 16 > PATH) return vsc_fail(error, VSC_INPUT, "the folder's name is too long");
-  snprintf(pattern, sizeof pattern, "%.*s/*.pvd", (int)length, wish->folder);
-  snprintf(wish->signals, sizeof wish->signals, "%.*s/signals.csv", (int)length, wish->folder);
+  const vsc_status status = vsc_results_open(wish->folder, &wish->results, error);
+  if (status != VSC_OK) return status;
+  const int folder = (int)(strrchr(wish->results.pvd, '/') - wish->results.pvd);
+  snprintf(wish->signals, sizeof wish->signals, "%.*s/signals.csv", folder, wish->results.pvd);
   if (wish->output[0] == '\0')
-    snprintf(wish->output, sizeof wish->output, "%.*s/beat.png", (int)length, wish->folder);
-  glob_t found = {0};
-  if (glob(pattern, 0, NULL, &found) != 0)
-    return vsc_fail(error, VSC_INPUT,
-                    "%s: there is no series (*.pvd); is this a folder that `viscera run` made?",
-                    wish->folder);
-  if (found.gl_pathc > 1)
-    vsc_fail(error, VSC_INPUT, "%s: there are %zu series (*.pvd), expected one", wish->folder,
-             found.gl_pathc);
-  else
-    snprintf(wish->series, sizeof wish->series, "%s", found.gl_pathv[0]);
-  const vsc_status status = found.gl_pathc > 1 ? VSC_INPUT : VSC_OK;
-  globfree(&found);
-  return status;
+    snprintf(wish->output, sizeof wish->output, "%.*s/beat.png", folder, wish->results.pvd);
+  return VSC_OK;
 }
 
 // The time at which the first cavity is smallest (or the active tension largest), in seconds.
@@ -121,36 +104,16 @@ static double most_contracted(const vsc_signals *signals)
   return time[best] * (strcmp(signals->units[column], "ms") == 0 ? 1e-3 : 1);
 }
 
-// The frame nearest to that time.
-static size_t nearest_frame(const vsc_pvd *series, double time)
-{
-  size_t nearest = 0;
-  for (size_t f = 0; f < vsc_pvd_count(series); f++)
-    if (fabs(vsc_pvd_time(series, f) - time) < fabs(vsc_pvd_time(series, nearest) - time))
-      nearest = f;
-  return nearest;
-}
-
 // Reads the frame that shall be shown into `page`, which then refers to *mesh.
 static vsc_status read_frame(const request *wish, vsc_page *page, vsc_mesh **mesh, vsc_error *error)
 {
-  vsc_pvd *series = NULL;
-  vsc_status status = vsc_pvd_open(wish->series, HUGE_VAL, &series, error);
-  if (status != VSC_OK) return status;
-  if (vsc_pvd_count(series) == 0) {
-    vsc_pvd_free(series);
-    return vsc_fail(error, VSC_INPUT, "%s: the series has no frames", wish->series);
-  }
-  const size_t frame =
-      nearest_frame(series, isnan(wish->time) ? most_contracted(page->signals) : wish->time);
-  page->time = vsc_pvd_time(series, frame);
+  char file[2 * VSC_PATH];
+  const size_t frame = vsc_results_nearest(
+      &wish->results, isnan(wish->time) ? most_contracted(page->signals) : wish->time);
+  page->time = vsc_pvd_time(wish->results.series, frame);
   page->chosen = !isnan(wish->time);
-  char file[2 * PATH];
-  const char *name = vsc_pvd_frame(series, frame), *slash = strrchr(wish->series, '/');
-  snprintf(file, sizeof file, "%.*s%s", name[0] == '/' ? 0 : (int)(slash + 1 - wish->series),
-           wish->series, name);
-  vsc_pvd_free(series);
-  status = vsc_vtk_read_mesh(file, 1, mesh, error);
+  vsc_results_file(&wish->results, frame, file);
+  const vsc_status status = vsc_vtk_read_mesh(file, 1, mesh, error);
   if (status != VSC_OK) return status;
   const vsc_array *displacement = vsc_arrays_find(&(*mesh)->node_data, "displacement");
   const vsc_array *tension = vsc_arrays_find(&(*mesh)->element_data, "active_tension");
@@ -168,8 +131,7 @@ static vsc_status read_frame(const request *wish, vsc_page *page, vsc_mesh **mes
 
 static void make_title(const request *wish, vsc_page *page)
 {
-  const char *slash = strrchr(wish->series, '/');
-  const char *name = slash == NULL ? wish->series : slash + 1;
+  const char *name = strrchr(wish->results.pvd, '/') + 1;
   snprintf(page->title, sizeof page->title, "%.*s", (int)(strlen(name) - strlen(".pvd")), name);
 }
 
@@ -190,6 +152,7 @@ static vsc_status draw(request *wish, vsc_error *error)
   }
   vsc_mesh_free(mesh);
   vsc_signals_free(signals);
+  vsc_results_close(&wish->results);
   return status;
 }
 
@@ -197,7 +160,7 @@ static vsc_status read_option(int option, request *wish, vsc_error *error)
 {
   switch (option) {
     case 'o':
-      if (snprintf(wish->output, sizeof wish->output, "%s", optarg) < PATH - 8) return VSC_OK;
+      if (snprintf(wish->output, sizeof wish->output, "%s", optarg) < VSC_PATH - 8) return VSC_OK;
       return vsc_fail(error, VSC_INPUT, "--output: the name is too long");
     case 't':
       return read_time(optarg, &wish->time, error);

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/results.h"
+
+#include <glob.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static vsc_status find_series(const char *folder, char pvd[VSC_PATH], vsc_error *error)
+{
+  char pattern[VSC_PATH];
+  size_t length = strlen(folder);
+  while (length > 1 && folder[length - 1] == '/') length--;
+  if (length + 16 > VSC_PATH) return vsc_fail(error, VSC_INPUT, "the folder's name is too long");
+  snprintf(pattern, sizeof pattern, "%.*s/*.pvd", (int)length, folder);
+  glob_t found = {0};
+  if (glob(pattern, 0, NULL, &found) != 0)
+    return vsc_fail(error, VSC_INPUT,
+                    "%s: there is no series (*.pvd); is this a folder that `viscera run` made?",
+                    folder);
+  vsc_status status = VSC_OK;
+  if (found.gl_pathc > 1)
+    status = vsc_fail(error, VSC_INPUT, "%s: there are %zu series (*.pvd), expected one", folder,
+                      found.gl_pathc);
+  else
+    snprintf(pvd, VSC_PATH, "%s", found.gl_pathv[0]);
+  globfree(&found);
+  return status;
+}
+
+vsc_status vsc_results_open(const char *folder, vsc_results *results, vsc_error *error)
+{
+  results->series = NULL;
+  vsc_status status = find_series(folder, results->pvd, error);
+  if (status == VSC_OK) status = vsc_pvd_open(results->pvd, HUGE_VAL, &results->series, error);
+  if (status == VSC_OK && vsc_pvd_count(results->series) == 0) {
+    status = vsc_fail(error, VSC_INPUT, "%s: the series has no frames", results->pvd);
+    vsc_results_close(results);
+  }
+  return status;
+}
+
+size_t vsc_results_nearest(const vsc_results *results, double time)
+{
+  const vsc_pvd *series = results->series;
+  const size_t count = vsc_pvd_count(series);
+  if (isnan(time)) return count - 1;
+  size_t nearest = 0;
+  for (size_t f = 1; f < count; f++)
+    if (fabs(vsc_pvd_time(series, f) - time) < fabs(vsc_pvd_time(series, nearest) - time))
+      nearest = f;
+  return nearest;
+}
+
+void vsc_results_file(const vsc_results *results, size_t frame, char file[2 * VSC_PATH])
+{
+  const char *name = vsc_pvd_frame(results->series, frame);
+  const char *slash = strrchr(results->pvd, '/');
+  const int folder = name[0] == '/' ? 0 : (int)(slash + 1 - results->pvd);
+  snprintf(file, 2 * VSC_PATH, "%.*s%s", folder, results->pvd, name);
+}
+
+void vsc_results_close(vsc_results *results)
+{
+  vsc_pvd_free(results->series);
+  results->series = NULL;
+}
