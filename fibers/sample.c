@@ -242,10 +242,22 @@ static void row_range(const index_tet *tet, long j, long k, size_t size, long *f
   whole_range(low + tet->centre[0], high + tet->centre[0], size, first, last);
 }
 
-// Adds the voxels whose centres lie in the tet; returns how many there are, with data or without.
-static size_t gather_inside(const angle_map *map, const index_tet *tet, const double home[3],
-                            moments *sum)
+// Whether a voxel's centre lies in the tet, as row_range has it.
+static bool holds(const index_tet *tet, const size_t at[3])
 {
+  for (int i = 0; i < 4; i++) {
+    double value = 0.25 + 1e-12;
+    for (int a = 0; a < 3; a++) value += tet->gradient[i][a] * ((double)at[a] - tet->centre[a]);
+    if (value < 0) return false;
+  }
+  return true;
+}
+
+// Adds the voxels whose centres lie in tet `t` of the element and in none before it; returns how many
+// there are, with data or without.
+static size_t gather_inside(const angle_map *map, const index_element *element, int t, moments *sum)
+{
+  const index_tet *tet = &element->tets[t];
   const size_t *size = map->image->size;
   size_t inside = 0;
   long k, k_last, j_first, j_last;
@@ -255,9 +267,14 @@ static size_t gather_inside(const angle_map *map, const index_tet *tet, const do
     for (long j = j_first; j <= j_last; j++) {
       long i, i_last;
       row_range(tet, j, k, size[0], &i, &i_last);
-      for (; i <= i_last; i++, inside++) {
+      for (; i <= i_last; i++) {
         const size_t at[3] = {(size_t)i, (size_t)j, (size_t)k};
-        add_voxel(map, at, 1, home, sum);
+        bool counted = false;
+        for (int former = 0; former < t; former++)
+          counted = counted || holds(&element->tets[former], at);
+        if (counted) continue;
+        add_voxel(map, at, 1, element->centre, sum);
+        inside++;
       }
     }
   return inside;
@@ -357,7 +374,7 @@ static bool sample_element(const angle_map *map, const index_element *element, d
   double plain[6], moved[6], axis[3], values[3];
   size_t inside = 0;
   for (int t = 0; t < element->count; t++)
-    inside += gather_inside(map, &element->tets[t], element->centre, &sum);
+    inside += gather_inside(map, element, t, &sum);
   *fallback = inside < ENOUGH;
   if (*fallback) {
     sum = (moments){0};

@@ -130,7 +130,11 @@ vsc_status vsc_vessel_lines(vsc_vessel_walk *walk, const vsc_vessel_def *definit
     status = vsc_fail_memory(error, "the centre lines");
   if (status == VSC_OK) status = vsc_polydata_weld(polydata, first, error);
   if (status == VSC_OK) {
-    for (size_t i = 0; i < 2 * count; i++) uses[first[polydata->segments[i]]]++;
+    for (size_t s = 0; s < count; s++) {
+      const uint32_t a = first[polydata->segments[2 * s]];
+      const uint32_t b = first[polydata->segments[2 * s + 1]];
+      if (a != b) uses[a]++, uses[b]++;
+    }
     fill_segments(polydata, definition, radii, first, uses, segments, ends, &report->own_volume);
     walk->own = segments;
     walk->visit = visit;

@@ -96,15 +96,18 @@ typedef struct room {
   double *direction;  // of the vessel at hand, x 3
   double *taken;      // the part that former vessels have
   double *largest;    // the largest fraction of one vessel that has given its direction
+  uint32_t *owner;    // the number of that vessel, from 1; 0: none
 } room;
 
-static void share(vsc_mesh *mesh, const vsc_vessel_def *vessel, const room *room, double *fraction,
-                  vsc_axes *axes, vsc_vessel_report *report)
+static void share(vsc_mesh *mesh, const vsc_vessel_def *vessel, uint32_t number, const room *room,
+                  double *fraction, vsc_axes *axes, vsc_vessel_report *report)
 {
   for (size_t e = 0; e < mesh->element_count; e++) {
     const double left = 1 - room->taken[e];
     if (fraction[e] > left) {
-      report->shared += (fraction[e] - left) * vsc_mesh_element_volume(mesh, e);
+      const double lost = (fraction[e] - left) * vsc_mesh_element_volume(mesh, e);
+      report->shared += lost;
+      report->volume -= lost;
       fraction[e] = left;
     }
     room->taken[e] += fraction[e];
@@ -112,12 +115,13 @@ static void share(vsc_mesh *mesh, const vsc_vessel_def *vessel, const room *room
     if (!vsc_axes_complete(&room->direction[3 * e], NULL, &axes->frames[9 * e])) continue;
     axes->known[e] = 1;
     room->largest[e] = fraction[e];
-    report->directed++;
+    room->owner[e] = number;
   }
 }
 
-static vsc_status make_one(vsc_mesh *mesh, const vsc_vessel_def *vessel, const room *room,
-                           vsc_axes *axes, vsc_vessel_report *report, vsc_error *error)
+static vsc_status make_one(vsc_mesh *mesh, const vsc_vessel_def *vessel, uint32_t number,
+                           const room *room, vsc_axes *axes, vsc_vessel_report *report,
+                           vsc_error *error)
 {
   char name[VSC_NAME];
   vsc_error bare;
@@ -138,7 +142,7 @@ static vsc_status make_one(vsc_mesh *mesh, const vsc_vessel_def *vessel, const r
         vsc_vessel_sample(mesh, polydata, vessel, array->values, room->direction, report, &bare);
     if (status != VSC_OK) vsc_fail(error, status, "%s: %s", vessel->file, bare.text);
   }
-  if (status == VSC_OK) share(mesh, vessel, room, array->values, axes, report);
+  if (status == VSC_OK) share(mesh, vessel, number, room, array->values, axes, report);
   vsc_polydata_free(polydata);
   return status;
 }
@@ -149,12 +153,16 @@ vsc_status vsc_vessels_make(vsc_mesh *mesh, const vsc_vessel_def *vessels, size_
   room room = {0};
   vsc_status status = VSC_OK;
   if (!VSC_NEW(room.direction, 3 * mesh->element_count) ||
-      !VSC_NEW(room.taken, mesh->element_count) || !VSC_NEW(room.largest, mesh->element_count))
+      !VSC_NEW(room.taken, mesh->element_count) || !VSC_NEW(room.largest, mesh->element_count) ||
+      !VSC_NEW(room.owner, mesh->element_count))
     status = vsc_fail_memory(error, "the vessels");
   for (size_t v = 0; v < count && status == VSC_OK; v++)
-    status = make_one(mesh, &vessels[v], &room, axes, &reports[v], error);
+    status = make_one(mesh, &vessels[v], (uint32_t)v + 1, &room, axes, &reports[v], error);
+  for (size_t e = 0; status == VSC_OK && e < mesh->element_count; e++)
+    if (room.owner[e] > 0) reports[room.owner[e] - 1].directed++;
   vsc_free(room.direction);
   vsc_free(room.taken);
   vsc_free(room.largest);
+  vsc_free(room.owner);
   return status;
 }

@@ -106,8 +106,8 @@ static vsc_status read_file(vsc_reading *reading, const char *name, const char *
 vsc_status vsc_curve_finish(vsc_reading *reading, const vsc_slot *slots, void *target)
 {
   vsc_curve_def *curve = target;
-  const char *file = vsc_slot_text(&vsc_curve_group, slots, "file");
-  const char *unit = vsc_slot_text(&vsc_curve_group, slots, "time_unit");
+  const char *file = vsc_slot_value(&vsc_curve_group, slots, "file");
+  const char *unit = vsc_slot_value(&vsc_curve_group, slots, "time_unit");
   if (curve->kind != VSC_CURVE_TABLE) return VSC_OK;
   if (file != NULL && curve->point_count > 0)
     return vsc_reading_fail(reading, "both file and times or values; keep one of the two");

@@ -118,7 +118,7 @@ const vsc_row *vsc_group_find(const vsc_group *group, const char *key)
   return NULL;
 }
 
-const char *vsc_slot_text(const vsc_group *group, const vsc_slot *slots, const char *key)
+const void *vsc_slot_value(const vsc_group *group, const vsc_slot *slots, const char *key)
 {
   return slots[vsc_group_find(group, key) - group->rows].value;
 }

@@ -86,7 +86,7 @@ extern const vsc_group vsc_scene_group;  // the whole file; its struct is vsc_sc
 extern const vsc_group vsc_curve_group;  // a curve; its struct is vsc_curve_def
 
 // The value of a key that holds one text, or NULL where it is absent.
-const char *vsc_slot_text(const vsc_group *group, const vsc_slot *slots, const char *key);
+const void *vsc_slot_value(const vsc_group *group, const vsc_slot *slots, const char *key);
 
 // The row of that key, or NULL.
 const vsc_row *vsc_group_find(const vsc_group *group, const char *key);

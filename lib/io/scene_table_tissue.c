@@ -173,11 +173,13 @@ static void start_material(void *target)
 static vsc_status finish_material(vsc_reading *reading, const vsc_slot *slots, void *target)
 {
   const vsc_material_def *material = target;
-  (void)slots;
-  if (material->law != VSC_LAW_SPRINGS || material->active.kind != VSC_ACTIVE_SPRING ||
-      material->active.stiffness != 0)
-    return VSC_OK;
+  if (material->active.kind != VSC_ACTIVE_SPRING) return VSC_OK;
+  const vsc_slot *given_active = vsc_slot_value(&vsc_material_group, slots, "active");
+  const bool given = vsc_slot_value(&active, given_active, "stiffness") != NULL;
+  if (given == (material->law == VSC_LAW_SPRINGS)) return VSC_OK;
   vsc_enter(reading, "active.stiffness");
+  if (given)
+    return vsc_reading_fail(reading, "means nothing for this law; law: paper has paper.active");
   return vsc_reading_fail(reading,
                           "missing; write such as \"stiffness: 200 kPa\" (fibre modulus at the peak)");
 }

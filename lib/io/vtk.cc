@@ -58,10 +58,8 @@ std::string cell_kind(int type)
 {
   static const std::map<int, const char *> names = {
     {VTK_EMPTY_CELL, "empty cells"}, {VTK_VERTEX, "vertices"}, {VTK_POLY_VERTEX, "point clouds"},
-    {VTK_LINE, "lines"}, {VTK_POLY_LINE, "polylines"}, {VTK_TRIANGLE, "triangles"},
-    {VTK_TRIANGLE_STRIP, "triangle strips"},
-    {VTK_POLYGON, "polygons"}, {VTK_PIXEL, "pixels"}, {VTK_QUAD, "quads"}, {VTK_VOXEL, "voxels"},
-    {VTK_HEXAHEDRON, "hexahedra"}, {VTK_WEDGE, "wedges"}, {VTK_PYRAMID, "pyramids"},
+    {VTK_LINE, "lines"}, {VTK_POLY_LINE, "polylines"}, {VTK_TRIANGLE_STRIP, "triangle strips"},
+    {VTK_POLYGON, "polygons"}, {VTK_PIXEL, "pixels"},
     {VTK_QUADRATIC_TETRA, "quadratic tetrahedra"}, {VTK_QUADRATIC_TRIANGLE, "quadratic triangles"}};
   const auto name = names.find(type);
   return name != names.end() ? name->second : "cells of VTK type " + std::to_string(type);

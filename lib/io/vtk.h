@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// VTK files behind plain C. The only door to VTK; no exception and no VTK message gets through it.
+// VTK's grids and images behind plain C. One of three doors to VTK (vtk_polydata.h, vtk_delaunay.h);
+// no exception and no VTK message gets through.
 // Calls from several threads are served one after the other.
 #ifndef VSC_IO_VTK_H
 #define VSC_IO_VTK_H

@@ -113,7 +113,9 @@ static vsc_status check_text(const char *file, const char *text, const char *end
   while (word < end) {
     if (strncasecmp(word, "dataset", 7) == 0)
       polydata = strncasecmp(next_word(word, end), "polydata", 8) == 0;
-    if (polydata && strncasecmp(word, "point_data", 10) == 0) return VSC_OK;
+    if (polydata && (strncasecmp(word, "point_data", 10) == 0 ||
+                     strncasecmp(word, "cell_data", 9) == 0))
+      return VSC_OK;
     if (strncasecmp(word, "cell_types", 10) == 0)
       return vsc_fail(error, VSC_INPUT,
                       "%s: has CELL_TYPES but no CELLS before them: write the file again", file);

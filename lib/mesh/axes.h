@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The material axes of each tet at rest: fibre f, sheet s, sheet normal n, right-handed and
+// The material axes of each element at rest: fibre f, sheet s, sheet normal n, right-handed and
 // orthonormal. Axes have no sign: f and -f are the same fibre.
 #ifndef VSC_MESH_AXES_H
 #define VSC_MESH_AXES_H
@@ -10,13 +10,13 @@
 #include "base/status.h"
 
 typedef struct vsc_axes {
-  size_t count;    // tets
+  size_t count;    // elements
   double *frames;  // count x 3 x 3: rows f, s, n
-  uint8_t *known;  // count: 1 where the fibre is known; 0 where there is none: such a tet is
+  uint8_t *known;  // count: 1 where the fibre is known; 0 where there is none: such an element is
                    // passive and its frame is the global axes
 } vsc_axes;
 
-// Axes of `count` tets: global axes, all unknown. NULL when memory is short.
+// Axes of `count` elements: global axes, all unknown. NULL when memory is short.
 vsc_axes *vsc_axes_create(size_t count);
 
 void vsc_axes_free(vsc_axes *axes);  // NULL is fine

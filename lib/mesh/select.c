@@ -7,6 +7,7 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
+#include "mesh/split.h"
 #include "mesh/topology.h"
 
 void vsc_node_set_free(vsc_node_set *set)
@@ -21,18 +22,12 @@ void vsc_surface_free(vsc_surface *surface)
   *surface = (vsc_surface){0};
 }
 
-// Appends a face: a quadrilateral is cut through its smallest node number.
-static void add_face(vsc_surface *surface, const int at[4], const uint32_t *corner)
+static void add_face(vsc_surface *surface, const int face[4], const uint32_t *corner)
 {
-  const int count = at[3] < 0 ? 3 : 4;
-  int low = 0;
-  for (int i = 1; i < count && count == 4; i++)
-    if (corner[at[i]] < corner[at[low]]) low = i;
-  for (int cut = 0; cut < count - 2; cut++) {
-    uint32_t *triangle = surface->triangles + 3 * surface->count++;
-    triangle[0] = corner[at[low]];
-    for (int k = 1; k < 3; k++) triangle[k] = corner[at[(low + cut + k) % count]];
-  }
+  uint32_t cut[2][3];
+  const int count = vsc_face_cut(corner, face, cut);
+  memcpy(surface->triangles + 3 * surface->count, cut, (size_t)count * sizeof *cut);
+  surface->count += (size_t)count;
 }
 
 // A surface's triangles as they are.

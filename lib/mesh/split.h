@@ -10,9 +10,13 @@ enum { VSC_MOST_TETS = 6 };
 // The tets of element `element`, right-handed: itself when it is one; else its corner with the
 // smallest number joined to the triangles of the faces that do not hold that corner, faces of four
 // corners being cut from their corner with the smallest number (a pyramid 2, a wedge 3, a
-// hexahedron 6). Neighbours cut a common face alike, so that the tets of a mesh fit together.
-// Returns how many there are; corners of elements with strongly bent faces may make tets of
-// negative volume.
+// hexahedron 6; fewer where three corners of a face lie in line and make a flat tet, which is left
+// out). Neighbours cut a common face alike, so that the tets of a mesh fit together. Returns how many
+// there are; corners of elements with strongly bent faces may make tets of negative volume.
 int vsc_mesh_split(const vsc_mesh *mesh, size_t element, uint32_t tets[VSC_MOST_TETS][4]);
+
+// A face of an element (places among `corners`; face[3] < 0: a triangle) as triangles that turn like
+// it: a quadrilateral is cut from its corner with the smallest number. Returns how many.
+int vsc_face_cut(const uint32_t *corners, const int face[4], uint32_t triangles[2][3]);
 
 #endif

@@ -30,13 +30,12 @@ static double largest(const double three[3])
 }
 
 // Law PAPER is there to be compared with: its angular and radial forces derive from no energy.
-static void warn_law(writer *w, const vsc_material *material)
+static void warn_paper(writer *w, const vsc_material *material)
 {
-  if (material->law == VSC_LAW_PAPER)
-    warn(w,
-         "material %s: law: paper keeps neither energy nor momenta, and its stiffness depends on the "
-         "size of the elements; for results use law: springs",
-         material->name);
+  warn(w,
+       "material %s: law: paper keeps neither energy nor momenta, and its stiffness depends on the "
+       "size of the elements; for results use law: springs",
+       material->name);
 }
 
 static void warn_springs(writer *w, const vsc_model *model, const vsc_material *material)
@@ -71,10 +70,8 @@ static void warn_material(writer *w, const vsc_problem *problem, size_t m)
   if (material->element_count == 0 && takes_elements)
     warn(w, "material %s: no element has its regions", material->name);
   if (!takes_elements) return;
-  if (material->law == VSC_LAW_SPRINGS)
-    warn_springs(w, problem->model, material);
-  else
-    warn_law(w, material);
+  if (material->law == VSC_LAW_SPRINGS) warn_springs(w, problem->model, material);
+  if (material->law == VSC_LAW_PAPER) warn_paper(w, material);
 }
 
 static void warn_vessels(writer *w, const vsc_problem *problem)
@@ -93,7 +90,7 @@ static void warn_vessels(writer *w, const vsc_problem *problem)
            "vessel %s: only %.0f %% of its volume lies in the mesh: are its unit and coordinates "
            "those of the mesh?",
            name, 100 * part);
-    if (part > 1.05)
+    if (part > 1.05 && r->surface)
       warn(w, "vessel %s: it fills %.0f %% of its own volume: is its surface closed?", name,
            100 * part);
     if (r->shared > 0.05 * r->own_volume)
