@@ -25,11 +25,11 @@ static bool allocate(const vsc_model *model, vsc_state *state)
          VSC_NEW(scratch->volume, nodal ? n : 0) &&
          VSC_NEW(scratch->partial_volume, nodal ? model->partial_count : 0) &&
          VSC_NEW(scratch->predicted, model->terms.damping ? 4 * n : 0) &&
-         VSC_NEW(scratch->trial, 3 * 4 * n) && VSC_NEW(state->contact, model->obstacle_count + 1) &&
+         VSC_NEW(scratch->trial, 3 * 4 * n) && VSC_NEW(state->contact, model->obstacle_count) &&
          VSC_NEW(state->contact_count, model->obstacle_count > 0 ? n : 0) &&
-         VSC_NEW(state->contact_normal, model->obstacle_count > 0 ? 4 * n : 4) &&
-         VSC_NEW(state->former, model->obstacle_count > 0 ? 4 * n : 4) &&
-         VSC_NEW(state->pending, model->obstacle_count > 0 ? 4 * n : 4) &&
+         VSC_NEW(state->contact_normal, model->obstacle_count > 0 ? 4 * n : 0) &&
+         VSC_NEW(state->former, model->obstacle_count > 0 ? 4 * n : 0) &&
+         VSC_NEW(state->pending, model->obstacle_count > 0 ? 4 * n : 0) &&
          VSC_NEW(state->kept_pressure, model->kept.count);
 }
 

@@ -48,13 +48,12 @@ typedef struct vsc_state {
   double *v;      // node_count x 4: velocity, mm/ms; owned
   double *a;      // node_count x 4: acceleration at x, v, time, mm/ms^2; owned
   double *force;  // node_count x 4: total force behind a, mN; owned
-  vsc_contact_sums *contact;  // obstacle_count + 1 (the last is not used); owned
-  uint8_t *contact_count;     // node_count: obstacles that the node touched in the last step; only
-                              // with obstacles, owned
-  double *former;             // node_count x 4: velocities in the middle of the last step; likewise (1
-                              // x 4 without obstacles)
+  vsc_contact_sums *contact;  // obstacle_count; owned
+  uint8_t *contact_count;     // node_count: obstacles that the node touched in the last step: 0, 1,
+                              // or 2 for several; only with obstacles, owned
+  double *former;             // node_count x 4: velocities in the middle of the last step; likewise
   double *pending;            // node_count x 4: impulses of contact whose work is not counted yet,
-                              // mN ms; likewise
+                              // mN ms, and the work of the obstacles behind them, uJ; likewise
   double *contact_normal;     // node_count x 4: the free part of the last one's normal, and
                               // its number; likewise
   double *kept_pressure;  // kept.count: multiplier of each kept volume in the last step, kPa; owned

@@ -38,11 +38,11 @@ static void put_scalars(vsc_job *job, const double scalars[SCALARS])
   for (int k = 0; k < SCALARS; k++) *places[k] = scalars[k];
 }
 
-// Nodes with a memory of contact; without obstacles one that is not used.
+// Nodes with a memory of contact.
 static size_t contact_nodes(const vsc_job *job)
 {
   const vsc_model *model = job->problem->model;
-  return model->obstacle_count > 0 ? model->node_count : 1;
+  return model->obstacle_count > 0 ? model->node_count : 0;
 }
 
 static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[BLOCKS])
@@ -54,7 +54,7 @@ static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[
       {"velocity", "mm/ms", nodes, 4, state->v},
       {"acceleration", "mm/ms^2", nodes, 4, state->a},
       {"stiffest_mode", "1", nodes, 4, state->limit.mode},
-      {"contact", "mN ms, uJ, uJ, mN ms, ms", job->problem->model->obstacle_count + 1,
+      {"contact", "mN ms, uJ, uJ, mN ms, ms", job->problem->model->obstacle_count,
        sizeof *state->contact / sizeof(double), (double *)state->contact},
       {"middle_velocity", "mm/ms", contact_nodes(job), 4, state->former},
       {"contact_impulse", "mN ms", contact_nodes(job), 4, state->pending},
@@ -107,7 +107,7 @@ static void list_arrays(vsc_job *job, double *arrays[4])
 static size_t contact_size(const vsc_job *job)
 {
   const size_t numbers = sizeof *job->state->contact / sizeof(double);
-  return (job->problem->model->obstacle_count + 1) * numbers + 12 * contact_nodes(job);
+  return job->problem->model->obstacle_count * numbers + 12 * contact_nodes(job);
 }
 
 // Copies what belongs to contact to `memory`, or back from it.

@@ -120,7 +120,9 @@ static vsc_status observe(vsc_job *job, vsc_error *error)
 
 static vsc_status write_row(vsc_job *job, vsc_error *error)
 {
-  return vsc_watch_row(job->problem, job->state, job->watch, error);
+  const vsc_status status = vsc_watch_row(job->problem, job->state, job->watch, error);
+  if (status == VSC_OK) vsc_job_keep_good(job);  // with the marks that the row has left
+  return status;
 }
 
 static vsc_status start(vsc_job *job, vsc_error *error)

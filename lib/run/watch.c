@@ -184,6 +184,11 @@ static double least_energy(const vsc_model *model)
       stiff = fmax(material->classical.stiffness, material->paper.axial[0]) / model->element_size;
     energy += 0.5 * stiff * material->volume * 0.03 * 0.03;
   }
+  for (size_t k = 0; k < model->membrane_count; k++) {
+    const vsc_membrane *m = &model->membranes[k];
+    const double stiff = fmax(m->moduli.axial[0], m->moduli.axial[1]);
+    energy += 0.5 * stiff * m->thickness * m->area * 0.03 * 0.03;
+  }
   return energy;
 }
 
@@ -211,10 +216,12 @@ static vsc_status check_balance(const vsc_model *model, const vsc_state *state, 
   const vsc_totals *t = &watch->totals;
   const vsc_ledger *ledger = watch->ledger;
   const double error_now = vsc_balance_error(ledger, t), jump = fabs(error_now - watch->balance);
-  const double stored = t->kinetic + t->axial + t->angular + t->volume_energy;
+  const double sizes[] = {
+      t->kinetic + t->axial + t->angular + t->volume_energy + t->membrane + t->bending,
+      fabs(ledger->active), fabs(ledger->pressure), fabs(t->contact_work)};
   watch->balance = error_now;
-  watch->energy_scale =
-      fmax(fmax(watch->energy_scale, stored), fmax(fabs(ledger->active), fabs(ledger->pressure)));
+  for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++)
+    watch->energy_scale = fmax(watch->energy_scale, sizes[k]);
   // law PAPER makes energy, and a forced step is the user's own risk
   const bool may_jump = ledger->calls <= 1 || model->terms.paper || model->force_step;
   if (isfinite(error_now) && (may_jump || jump <= 0.05 * watch->energy_scale)) return VSC_OK;

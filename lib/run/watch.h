@@ -9,7 +9,8 @@
 #include "mesh/surface.h"
 #include "run/problem.h"
 
-// Columns of signals.csv: 55 at most, one for each cavity and pressure, three for each obstacle.
+// Columns of signals.csv: room for 55 that every scene may have, one for each cavity and pressure,
+// three for each obstacle.
 enum {
   VSC_SIGNALS = 55 + VSC_OUTPUT_ARRAYS + VSC_MOST_PRESSURES + 3 * VSC_MOST_OBSTACLES,
   VSC_SIGNAL_NAME = 96

@@ -54,15 +54,23 @@ static double stop(const pusher *p, const double way[3], double v[3])
   return inward;
 }
 
+// An obstacle gives a node an impulse along axis i.
+static void load(vsc_state *state, uint32_t node, int i, double impulse, const pusher *p)
+{
+  double *pending = state->pending + 4 * (size_t)node;
+  pending[i] += impulse;
+  pending[3] += impulse * p->speed[i];
+  p->sums->impulse[i] += impulse;
+  p->sums->work += impulse * p->speed[i];
+}
+
 // J = m (v' - v) of one node.
 static void count_impulse(const vsc_model *model, vsc_state *state, uint32_t node,
                           const double before[3], const double after[3], const pusher *p)
 {
   for (int i = 0; i < 3; i++) {
     const double impulse = model->mass[node] * (after[i] - before[i]);
-    state->pending[4 * (size_t)node + i] += impulse;
-    p->sums->impulse[i] += impulse;
-    p->sums->work += impulse * p->speed[i];
+    load(state, node, i, impulse, p);
   }
 }
 
@@ -72,7 +80,7 @@ static bool put_back(const vsc_model *model, vsc_state *state, uint32_t node, do
   double *x = state->x + 4 * (size_t)node, *v = state->v + 4 * (size_t)node;
   double normal[3], way[3], before[3];
   const double gap = vsc_obstacle_gap(p->obstacle, p->point, x, normal);
-  if (gap >= -ROUNDING * model->element_size) return false;
+  if (gap >= -ROUNDING * (model->element_size + vsc_norm(x))) return false;
   const double free = free_part(model->inverse_mass + 4 * (size_t)node, normal, way);
   if (free < 1e-6) return false;  // held against the obstacle
   memcpy(before, v, sizeof before);
@@ -100,10 +108,13 @@ static bool put_back(const vsc_model *model, vsc_state *state, uint32_t node, do
     if (stuck) rub(model, node, p, way, INFINITY, predicted);
   }
   count_impulse(model, state, node, before, v, p);
-  state->contact_count[node]++;
+  // one obstacle, or several
   double *kept = state->contact_normal + 4 * (size_t)node;
+  const double number = (double)(p->obstacle - model->obstacles);
+  const bool another = state->contact_count[node] > 0 && kept[3] != number;
+  if (another || state->contact_count[node] == 0) state->contact_count[node] = another ? 2 : 1;
   memcpy(kept, way, sizeof way);
-  kept[3] = (double)(p->obstacle - model->obstacles);
+  kept[3] = number;
   return true;
 }
 
@@ -138,23 +149,20 @@ void vsc_contact_load(const vsc_model *model, vsc_state *state, uint32_t node,
                       const double impulse[3], double dt)
 {
   const pusher p = pusher_of(model, state, (size_t)state->contact_normal[4 * (size_t)node + 3], dt);
-  for (int i = 0; i < 3; i++) {
-    state->pending[4 * (size_t)node + i] += impulse[i];
-    p.sums->impulse[i] += impulse[i];
-    p.sums->work += impulse[i] * p.speed[i];
-  }
+  for (int i = 0; i < 3; i++) load(state, node, i, impulse[i], &p);
 }
 
-void vsc_contact_account(const vsc_model *model, vsc_state *state, double dt)
+void vsc_contact_account(const vsc_model *model, vsc_state *state)
 {
   for (size_t n = 0; n < model->node_count; n++) {
     double *impulse = state->pending + 4 * n, *former = state->former + 4 * n;
     const double *v = state->v + 4 * n;
     if (impulse[0] != 0 || impulse[1] != 0 || impulse[2] != 0) {
-      const pusher p = pusher_of(model, state, (size_t)state->contact_normal[4 * n + 3], dt);
-      for (int i = 0; i < 3; i++)
-        p.sums->lost += impulse[i] * (p.speed[i] - 0.5 * (former[i] + v[i]));
-      memset(impulse, 0, 3 * sizeof *impulse);
+      // what obstacles have worked less what the node has got of it
+      vsc_contact_sums *sums = &state->contact[(size_t)state->contact_normal[4 * n + 3]];
+      sums->lost += impulse[3];
+      for (int i = 0; i < 3; i++) sums->lost -= 0.5 * impulse[i] * (former[i] + v[i]);
+      memset(impulse, 0, 4 * sizeof *impulse);
     }
     memcpy(former, v, 3 * sizeof *former);
   }

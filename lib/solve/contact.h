@@ -15,10 +15,9 @@
 // directions do not move. Between several obstacles it goes round until no node is inside any, or 8
 // times. Impulses go to the state's contact sums.
 //
-// state->contact_count (node_count) counts the obstacles that a node touches in this step, and
-// state->contact_normal (node_count x 4) holds the normal of the last and its number; `fresh` forgets
-// them first.
-// Returns the number of nodes that were put back.
+// state->contact_count (node_count) says whether a node touches no, one (1) or several (2) obstacles
+// in this step, and state->contact_normal (node_count x 4) holds the normal of the last and its
+// number; `fresh` forgets them first. Returns the number of nodes that were put back.
 size_t vsc_contact_resolve(const vsc_model *model, vsc_state *state, double dt, bool fresh);
 
 // Adds an impulse (mN ms) with which an obstacle holds a node that it touches against the multipliers of
@@ -29,7 +28,7 @@ void vsc_contact_load(const vsc_model *model, vsc_state *state, uint32_t node,
 // To be called when the positions of a step are settled: the impulse J on a node works J . (v_0 + v)/2
 // with the middle velocities v_0 of the step before and v of this one, which is how Stoermer-Verlet
 // itself counts the work of forces; what of the obstacle's J . speed is not found there is lost.
-void vsc_contact_account(const vsc_model *model, vsc_state *state, double dt);
+void vsc_contact_account(const vsc_model *model, vsc_state *state);
 
 // To be called when a row of steps of dt has ended and velocities are those of its end: nodes that
 // touched an obstacle in the last step lose the velocity that leads into it, and friction takes its

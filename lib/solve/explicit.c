@@ -91,7 +91,10 @@ static vsc_status restrain(const vsc_model *model, vsc_state *state, double dt, 
     if (model->obstacle_count == 0 || vsc_contact_resolve(model, state, dt, false) == 0)
       return VSC_OK;
   }
-  return VSC_OK;
+  return vsc_fail(error, VSC_NUMERICAL,
+                  "at %.6g ms contact and kept volumes do not agree after %d turns; use keep_volume: "
+                  "region or total, or a smaller load",
+                  state->time, MOST_TURNS);
 }
 
 vsc_status vsc_steps(const vsc_model *model, vsc_state *state, double dt, double count,
@@ -106,7 +109,7 @@ vsc_status vsc_steps(const vsc_model *model, vsc_state *state, double dt, double
     state->steps++;
     const vsc_status status = restrain(model, state, dt, k == 1, error);
     if (status != VSC_OK) return status;
-    if (model->obstacle_count > 0) vsc_contact_account(model, state, dt);
+    if (model->obstacle_count > 0) vsc_contact_account(model, state);
     vsc_force(model, state->x, velocity, state->time, &state->scratch, state->force);
     vsc_parallel_for(pieces, k < count ? kick_and_drift : kick, &m);
   }

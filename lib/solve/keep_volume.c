@@ -108,9 +108,13 @@ static vsc_status open_keeper(const vsc_model *model, vsc_state *state, vsc_erro
   }
   vsc_free(place);
   vsc_free(seen);
+  if (!good) {
+    release(k);
+    return vsc_fail_memory(error, "kept volumes");
+  }
   state->keeper = k;
   state->release_keeper = release;
-  return good ? VSC_OK : vsc_fail_memory(error, "kept volumes");
+  return VSC_OK;
 }
 
 // ---- gradients and the matrix

@@ -6,7 +6,8 @@
 
 #include "mech/state.h"
 
-// Part of its volume by which a kept one may differ after a step.
+// Part of its volume by which a kept one differs after a step; where rounding allows no better, up to
+// 100 times as much is accepted.
 #define VSC_KEPT_TOLERANCE 1e-12
 
 // To be called when the positions have drifted in a step of dt (ms), after contact: finds multipliers
