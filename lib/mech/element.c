@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mech/element.h"
 
+#include <string.h>
+
 static void paper_law(const vsc_model *model, const vsc_patch *patch, size_t k, vsc_pack_law *law)
 {
   const vsc_paper_def *paper = &model->materials[patch->material].paper;
@@ -18,32 +20,19 @@ static void paper_law(const vsc_model *model, const vsc_patch *patch, size_t k, 
   law->active_axial = paper->active * r[0] * r[0] * inverse;
 }
 
-static void mixed_law(const vsc_mixture *mixture, vsc_pack_law *law)
-{
-  for (int a = 0; a < 3; a++) {
-    law->springs.axial[a] = mixture->axial[a];
-    law->springs.angular[a] = mixture->angular[a];
-    law->damping[a] = mixture->damping[a];
-  }
-  law->volume_modulus = mixture->volume_modulus;
-  law->stabilization = mixture->stabilization;
-  law->element_modulus = mixture->element_modulus;
-  law->share = mixture->share;
-}
-
 vsc_pack_law vsc_pack_law_of(const vsc_model *model, const vsc_patch *patch, size_t k)
 {
   const vsc_material *material = &model->materials[patch->material];
-  vsc_pack_law law = {.springs.rest_stretch = vsc_splat(1), .share = vsc_splat(1)};
-  for (int a = 0; a < 3; a++) {
-    law.springs.axial[a] = vsc_splat(material->axial[a]);
-    law.springs.angular[a] = vsc_splat(material->angular[a]);
-    law.damping[a] = vsc_splat(material->damping[a]);
-  }
-  law.volume_modulus = vsc_splat(material->volume_modulus);
-  law.stabilization = vsc_splat(material->stabilization);
-  law.element_modulus = vsc_splat(material->element_modulus);
-  if (patch->mixed) mixed_law(vsc_pack_mixture(model, patch, k), &law);
+  const vsc_mixture moduli =
+      vsc_moduli_or(material, patch->mixed ? vsc_pack_mixture(model, patch, k) : NULL);
+  vsc_pack_law law = {.springs.rest_stretch = vsc_splat(1),
+                      .volume_modulus = moduli.volume_modulus,
+                      .stabilization = moduli.stabilization,
+                      .element_modulus = moduli.element_modulus,
+                      .share = moduli.share};
+  memcpy(law.springs.axial, moduli.axial, sizeof moduli.axial);
+  memcpy(law.springs.angular, moduli.angular, sizeof moduli.angular);
+  memcpy(law.damping, moduli.damping, sizeof moduli.damping);
   law.active_axial =
       law.springs.axial[0] + law.share * (material->active_stiffness - material->axial[0]);
   if (patch->law_data) paper_law(model, patch, k, &law);

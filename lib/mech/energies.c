@@ -4,20 +4,6 @@
 #include "mech/element.h"
 #include "model/law_volume.h"
 
-// Corner positions (or velocities) of four elements.
-static void corners_of(const vsc_model *model, const vsc_patch *patch,
-                       const uint16_t (*node)[VSC_WIDTH], int corners, const double *nodes,
-                       vsc_wide3 *x)
-{
-  for (int c = 0; c < corners; c++)
-    for (int l = 0; l < VSC_WIDTH; l++) {
-      const double *at = nodes + 4 * (size_t)vsc_node_of(model, patch, node[c][l]);
-      x[c].x[l] = at[0];
-      x[c].y[l] = at[1];
-      x[c].z[l] = at[2];
-    }
-}
-
 static vsc_wide length_of(vsc_wide3 a)
 {
   return vsc_wide_sqrt(vsc_wide_dot(a, a));
@@ -126,8 +112,8 @@ static vsc_pack_energies paper_cells(const vsc_model *model, const vsc_patch *pa
   const vsc_hex_axes *axes = vsc_pack_law_data(model, patch, k);
   vsc_pack_energies sum = {0};
   vsc_wide3 at[8], speed[8], l[3] = {0}, rate[3] = {0}, centre = {0}, drift = {0};
-  corners_of(model, patch, vsc_pack_nodes(model, patch, k), corners, x, at);
-  corners_of(model, patch, vsc_pack_nodes(model, patch, k), corners, v, speed);
+  vsc_pack_corners(model, patch, vsc_pack_nodes(model, patch, k), corners, x, at);
+  vsc_pack_corners(model, patch, vsc_pack_nodes(model, patch, k), corners, v, speed);
   if (tets) {
     vsc_pack_axes(model, patch, k, 0, x, l);
     vsc_pack_axes(model, patch, k, 0, v, rate);
@@ -172,8 +158,8 @@ static vsc_pack_energies edge_springs(const vsc_model *model, const vsc_patch *p
   const vsc_edge_pack *pack =
       (const vsc_edge_pack *)(model->store + patch->packs) + (k - patch->first_pack);
   vsc_wide3 at[2], speed[2];
-  corners_of(model, patch, pack->node, 2, x, at);
-  corners_of(model, patch, pack->node, 2, v, speed);
+  vsc_pack_corners(model, patch, pack->node, 2, x, at);
+  vsc_pack_corners(model, patch, pack->node, 2, v, speed);
   const vsc_wide3 way = vsc_wide_minus(at[0], at[1]);
   const vsc_wide length = length_of(way), strain = length - pack->length;
   const vsc_wide change = per_length(vsc_wide_dot(vsc_wide_minus(speed[0], speed[1]), way), length);
@@ -189,8 +175,8 @@ static vsc_pack_energies triangles(const vsc_model *model, const vsc_patch *patc
   const vsc_triangle_pack *pack = vsc_triangles_of(model, patch) + (k - patch->first_pack);
   const vsc_membrane *membrane = &model->membranes[patch->material];
   vsc_wide3 at[3], speed[3], g[2], rate[2];
-  corners_of(model, patch, pack->node, 3, x, at);
-  corners_of(model, patch, pack->node, 3, v, speed);
+  vsc_pack_corners(model, patch, pack->node, 3, x, at);
+  vsc_pack_corners(model, patch, pack->node, 3, v, speed);
   for (int a = 0; a < 2; a++) {
     g[a] = rate[a] = (vsc_wide3){vsc_splat(0), vsc_splat(0), vsc_splat(0)};
     for (int i = 0; i < 2; i++) {
@@ -215,8 +201,8 @@ static vsc_pack_energies bends(const vsc_model *model, const vsc_patch *patch, s
   vsc_wide3 at[VSC_BEND_NODES], speed[VSC_BEND_NODES];
   vsc_wide rates[VSC_BEND_FOLDS];
   vsc_fold folds[VSC_BEND_FOLDS];
-  corners_of(model, patch, pack->node, VSC_BEND_NODES, x, at);
-  corners_of(model, patch, pack->node, VSC_BEND_NODES, v, speed);
+  vsc_pack_corners(model, patch, pack->node, VSC_BEND_NODES, x, at);
+  vsc_pack_corners(model, patch, pack->node, VSC_BEND_NODES, v, speed);
   vsc_bend_folds(at, folds);
   vsc_bend_rates(folds, speed, rates);
   const double lag = model->membranes[patch->material].lag;

@@ -127,28 +127,13 @@ static void patch_volume(void *context, size_t p, int thread)
          patch->shared_count * sizeof *local.f);
 }
 
-// Whether anything in the patch resists velocity.
-static bool is_damped(const vsc_model *model, const vsc_patch *patch)
-{
-  if (vsc_patch_is_surface(patch)) return model->membranes[patch->material].lag > 0;
-  const vsc_material *m = &model->materials[patch->material];
-  if (patch->family == VSC_SPRINGS_ON_EDGES) return m->classical.damping > 0;
-  if (m->law == VSC_LAW_PAPER)
-    return m->paper.damping[0] > 0 || m->paper.damping[1] > 0 || m->paper.damping[2] > 0 ||
-           m->paper.volume_damping > 0;
-  if (m->damping[0] > 0 || m->damping[1] > 0 || m->damping[2] > 0 || patch->mixed) return true;
-  for (size_t d = 0; d < m->axis_count; d++)
-    if (model->axes[m->first_axis + d].damping > 0) return true;
-  return false;
-}
-
 // The work of a patch of a membrane.
 static vsc_patch_work prepare_surface(const evaluation *e, const vsc_patch *patch,
                                       const local_arrays *local, vsc_kernel_choice *choice)
 {
   const vsc_model *model = e->model;
   *choice = (vsc_kernel_choice){.family = patch->family,
-                                .damping = e->w != NULL && is_damped(model, patch)};
+                                .damping = e->w != NULL && model->membranes[patch->material].lag > 0};
   gather(model, patch, e->x, local->x);
   if (choice->damping) gather(model, patch, e->w, local->w);
   return (vsc_patch_work){.packs = model->store + patch->packs,
@@ -170,7 +155,7 @@ static vsc_patch_work prepare(const evaluation *e, const vsc_patch *patch, const
   *choice = (vsc_kernel_choice){
       .family = patch->family,
       .law = material->law,
-      .damping = e->w != NULL && is_damped(model, patch),
+      .damping = e->w != NULL && (patch->mixed ? model->terms.damping : material->damped),
       .active = passive ? VSC_ACTIVE_NONE : material->active,
       .nodal_volume = vsc_patch_shares_volume(model, patch),
       .composed = patch->mixed || material->axis_count + material->pair_count > 0};

@@ -46,41 +46,14 @@ VSC_INLINE vsc_wide cofactor_of(const vsc_wide3 g[3], vsc_wide3 cofactor[3])
   return vsc_wide_dot(g[0], cofactor[0]);
 }
 
-// Moduli of a pack: the material's, or those of its mixture.
-typedef struct pack_moduli {
-  vsc_wide axial[3], angular[3], damping[3], volume, stabilization, element, share;
-} pack_moduli;
-
-VSC_INLINE pack_moduli moduli_of(const vsc_patch_work *work, size_t k, bool composed)
+VSC_INLINE vsc_mixture moduli_of(const vsc_patch_work *work, size_t k, bool composed)
 {
-  pack_moduli m = {.share = vsc_splat(1)};
-  const vsc_material *material = work->material;
-  if (composed && work->mixtures != NULL) {
-    const vsc_mixture *mixture = &work->mixtures[k];
-    for (int a = 0; a < 3; a++) {
-      m.axial[a] = mixture->axial[a];
-      m.angular[a] = mixture->angular[a];
-      m.damping[a] = mixture->damping[a];
-    }
-    m.volume = mixture->volume_modulus;
-    m.stabilization = mixture->stabilization;
-    m.element = mixture->element_modulus;
-    m.share = mixture->share;
-    return m;
-  }
-  for (int a = 0; a < 3; a++) {
-    m.axial[a] = vsc_splat(material->axial[a]);
-    m.angular[a] = vsc_splat(material->angular[a]);
-    m.damping[a] = vsc_splat(material->damping[a]);
-  }
-  m.volume = vsc_splat(material->volume_modulus);
-  m.stabilization = vsc_splat(material->stabilization);
-  m.element = vsc_splat(material->element_modulus);
-  return m;
+  return vsc_moduli_or(work->material,
+                       composed && work->mixtures != NULL ? &work->mixtures[k] : NULL);
 }
 
 // The springs of a pack at activation a.
-VSC_INLINE vsc_springs springs_of(const vsc_material *material, const pack_moduli *m,
+VSC_INLINE vsc_springs springs_of(const vsc_material *material, const vsc_mixture *m,
                                   vsc_active_kind active, vsc_wide a)
 {
   vsc_springs law = {.rest_stretch = vsc_splat(1)};

@@ -134,7 +134,7 @@ VSC_INLINE vsc_wide shared_pressure(const vsc_frame *frames, int points, vsc_wid
 }
 
 // P_a of one frame: springs, damping, activity, further axes, and the volume's pressure.
-VSC_INLINE void solid_stress(const vsc_patch_work *work, size_t k, const pack_moduli *moduli,
+VSC_INLINE void solid_stress(const vsc_patch_work *work, size_t k, const vsc_mixture *moduli,
                              const vsc_wide3 g[3], const vsc_wide3 rate[3], bool damping,
                              vsc_wide pressure, vsc_wide3 P[3])
 {
@@ -161,7 +161,7 @@ VSC_INLINE void solid_kernel(const vsc_patch_work *work, int corners, int points
   for (size_t k = 0; k < work->pack_count; k++) {
     const vsc_frame *frames = (const vsc_frame *)((const char *)work->packs + k * bytes);
     const uint16_t(*node)[VSC_WIDTH] = (const uint16_t(*)[VSC_WIDTH])(frames + points);
-    const pack_moduli moduli = moduli_of(work, k, true);
+    const vsc_mixture moduli = moduli_of(work, k, true);
     vsc_wide3 x[VSC_MOST_CORNERS], f[VSC_MOST_CORNERS];
     vsc_wide3 h[VSC_MOST_POINTS][3], speed[VSC_MOST_POINTS][3], g[VSC_MOST_POINTS][3];
     for (int c = 0; c < corners; c++) x[c] = gather_corner(node[c], work->x);
@@ -170,7 +170,7 @@ VSC_INLINE void solid_kernel(const vsc_patch_work *work, int corners, int points
       for (int c = 0; c < corners; c++) x[c] = gather_corner(node[c], work->w);
       derivatives(work->rule, corners, points, x, speed);
     }
-    const vsc_wide pressure = shared_pressure(frames, points, moduli.volume, h, g);
+    const vsc_wide pressure = shared_pressure(frames, points, moduli.volume_modulus, h, g);
     for (int q = 0; q < points; q++) {
       const vsc_frame *frame = &frames[q];
       vsc_wide3 rate[3], P[3];

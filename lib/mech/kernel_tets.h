@@ -75,7 +75,7 @@ VSC_INLINE void force_kernel(const vsc_patch_work *work, bool composed, bool dam
   const vsc_pack *packs = work->packs;
   for (size_t k = 0; k < work->pack_count; k++) {
     const vsc_pack *pack = &packs[k];
-    const pack_moduli moduli = moduli_of(work, k, composed);
+    const vsc_mixture moduli = moduli_of(work, k, composed);
     vsc_wide3 edge[3], g[3], rate[3], P[3];
     vsc_wide along[3] = {vsc_splat(0), vsc_splat(0), vsc_splat(0)};
     gather_edges(pack, work->x, edge);
@@ -95,7 +95,7 @@ VSC_INLINE void force_kernel(const vsc_patch_work *work, bool composed, bool dam
       along[0] += moduli.share * activation * work->material->tension * frame.length[0];
     vsc_springs_stress(&law, &frame, along, P);
     if (composed) add_more_axes(work, moduli.share, g, rate, damping, P);
-    add_volume_stress(pack, moduli.element, work->pressure, g, nodal, P);
+    add_volume_stress(pack, moduli.element_modulus, work->pressure, g, nodal, P);
     scatter_forces(pack, P, work->f);
   }
 }

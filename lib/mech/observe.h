@@ -15,7 +15,7 @@ typedef struct vsc_totals {
   double membrane;               // membranes in their planes, uJ
   double bending;                // bending of membranes, uJ
   double gravity_energy;         // - sum m g . x, uJ, 0 at rest
-  double dissipation;            // power of axial damping, uJ/ms
+  double dissipation;            // power of all damping, uJ/ms
   double momentum[3];            // sum m v, mg mm/ms
   double angular_momentum[3];    // sum m x x v, mg mm^2/ms
   double volume;                 // of the tissue, mm^3
@@ -67,12 +67,12 @@ typedef enum vsc_field {
   VSC_FIELD_DISPLACEMENT,  // nodes x 3, mm
   VSC_FIELD_VELOCITY,      // nodes x 3, mm/ms = m/s
   VSC_FIELD_GROUP_RATIO,   // nodes x 1: J of the node's volume group (1 without groups)
-  VSC_FIELD_FIBER,  // tets x 3: unit vector of the deformed axis; 0 where the fibre is not known
+  VSC_FIELD_FIBER,  // elements x 3: unit vector of the deformed axis; 0 where the fibre is not known
   VSC_FIELD_SHEET,
   VSC_FIELD_NORMAL,
-  VSC_FIELD_ACTIVE_TENSION,  // tets x 1, kPa: T, or what an active spring adds to the passive one
-  VSC_FIELD_STRETCH,         // tets x 1: |g_f|
-  VSC_FIELD_VOLUME_RATIO,    // tets x 1: J
+  VSC_FIELD_ACTIVE_TENSION,  // elements x 1, kPa: T, or what an active spring adds to the passive one
+  VSC_FIELD_STRETCH,         // elements x 1: |g_f|
+  VSC_FIELD_VOLUME_RATIO,    // elements x 1: J
 } vsc_field;
 
 // True for fields on nodes.

@@ -241,27 +241,12 @@ static void add_bend_stiffness(const vsc_model *model, const vsc_patch *patch, d
     const vsc_bend_pack *pack = &packs[k];
     vsc_wide3 x[VSC_BEND_NODES];
     vsc_wide square[VSC_BEND_NODES];
-    for (int i = 0; i < VSC_BEND_NODES; i++)
-      for (int l = 0; l < VSC_WIDTH; l++) {
-        const double *at = model->rest + 4 * (size_t)vsc_node_of(model, patch, pack->node[i][l]);
-        x[i].x[l] = at[0];
-        x[i].y[l] = at[1];
-        x[i].z[l] = at[2];
-      }
+    vsc_pack_corners(model, patch, pack->node, VSC_BEND_NODES, model->rest, x);
     moment_gradients(&pack->bends, x, square);
     for (int i = 0; i < VSC_BEND_NODES; i++)
       for (int l = 0; l < VSC_WIDTH; l++)
         stiffness[vsc_node_of(model, patch, pack->node[i][l])] += square[i][l];
   }
-}
-
-// The nodes of four parts of any patch but one of classical springs.
-static const uint16_t (*nodes_of(const vsc_model *model, const vsc_patch *patch, size_t k))[VSC_WIDTH]
-{
-  if (patch->family == VSC_TRIANGLES)
-    return vsc_triangles_of(model, patch)[k - patch->first_pack].node;
-  if (patch->family == VSC_BENDS) return vsc_bends_of(model, patch)[k - patch->first_pack].node;
-  return vsc_pack_nodes(model, patch, k);
 }
 
 // Whether a place of the pack is taken.
@@ -294,7 +279,7 @@ double vsc_limit_bound(const vsc_model *model, vsc_scratch *scratch, size_t *slo
       if (!is_taken(model, patch, k)) continue;
       double sum = 0;
       for (int c = 0; c < vsc_family_corners(patch->family); c++) {
-        const uint16_t local = nodes_of(model, patch, k / VSC_WIDTH)[c][k % VSC_WIDTH];
+        const uint16_t local = vsc_pack_nodes(model, patch, k / VSC_WIDTH)[c][k % VSC_WIDTH];
         const uint32_t node = vsc_node_of(model, patch, local);
         sum += stiffness[node] / model->mass[node];
       }

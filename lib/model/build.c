@@ -70,12 +70,27 @@ static void copy_axes(const vsc_material_def *def, vsc_material *material, vsc_m
   }
 }
 
+// Whether anything in the material resists velocity.
+static bool is_damped(const vsc_material_def *def)
+{
+  double most = 0;
+  for (int a = 0; a < 3; a++) {
+    if (def->law == VSC_LAW_SPRINGS) most = fmax(most, def->damping[a]);
+    if (def->law == VSC_LAW_PAPER) most = fmax(most, def->paper.damping[a]);
+  }
+  if (def->law == VSC_LAW_PAPER) most = fmax(most, def->paper.volume_damping);
+  if (def->law == VSC_LAW_CLASSICAL) most = fmax(most, def->classical.damping);
+  for (size_t k = 0; k < def->axis_count; k++) most = fmax(most, def->axes[k].damping);
+  return most > 0;
+}
+
 static vsc_status copy_material(const vsc_material_def *def, const vsc_definition *definition,
                                 vsc_material *material, vsc_model *model, vsc_error *error)
 {
   vsc_copy_name(material->name, def->name);
   material->density = def->density;
   material->law = def->law;
+  material->damped = is_damped(def);
   if (def->law == VSC_LAW_SPRINGS) {
     memcpy(material->axial, def->axial, sizeof material->axial);
     memcpy(material->angular, def->angular, sizeof material->angular);
@@ -97,20 +112,6 @@ static vsc_status copy_material(const vsc_material_def *def, const vsc_definitio
   return vsc_curve_build(&def->active.curve, definition->end_time, &material->curve, error);
 }
 
-// Whether anything in the material resists velocity.
-static bool is_damped(const vsc_material_def *def)
-{
-  double most = 0;
-  for (int a = 0; a < 3; a++) {
-    if (def->law == VSC_LAW_SPRINGS) most = fmax(most, def->damping[a]);
-    if (def->law == VSC_LAW_PAPER) most = fmax(most, def->paper.damping[a]);
-  }
-  if (def->law == VSC_LAW_PAPER) most = fmax(most, def->paper.volume_damping);
-  if (def->law == VSC_LAW_CLASSICAL) most = fmax(most, def->classical.damping);
-  for (size_t k = 0; k < def->axis_count; k++) most = fmax(most, def->axes[k].damping);
-  return most > 0;
-}
-
 static vsc_status build_materials(const vsc_definition *definition, vsc_model *model,
                                   vsc_error *error)
 {
@@ -128,7 +129,7 @@ static vsc_status build_materials(const vsc_definition *definition, vsc_model *m
                                             &model->materials[m], model, error);
     if (status != VSC_OK) return status;
     const vsc_material *material = &model->materials[m];
-    model->terms.damping |= is_damped(&definition->materials[m]);
+    model->terms.damping |= material->damped;
     model->terms.paper |= material->law == VSC_LAW_PAPER;
     if (material->active == VSC_ACTIVE_NONE) continue;
     if (model->terms.active != VSC_ACTIVE_NONE && model->terms.active != material->active)

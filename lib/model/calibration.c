@@ -200,8 +200,7 @@ static vsc_status factor_wanted(const vsc_moduli *moduli, double factor[36], vsc
   return VSC_OK;
 }
 
-vsc_status vsc_compare_springs(const vsc_moduli *moduli, vsc_spring_constants *springs,
-                               vsc_error *error)
+static vsc_status compare(const vsc_moduli *moduli, vsc_spring_constants *springs, vsc_error *error)
 {
   double factor[36], sum[36] = {0}, unit[36], values[6];
   const vsc_status status = factor_wanted(moduli, factor, error);
@@ -246,20 +245,22 @@ static vsc_status solve_free(least_squares *problem, vsc_error *error)
   gsl_vector *x = gsl_vector_alloc(count);
   gsl_multifit_linear_workspace *work = gsl_multifit_linear_alloc(ROWS, count);
   const bool fine = A != NULL && covariance != NULL && x != NULL && work != NULL;
+  int failed = GSL_SUCCESS;
   if (fine) {
     double square;
     for (int c = 0; c < count; c++) {
       gsl_vector_view from = gsl_matrix_column(problem->A, column[c]);
       gsl_matrix_set_col(A, c, &from.vector);
     }
-    gsl_multifit_linear(A, problem->b, x, covariance, &square, work);
+    failed = gsl_multifit_linear(A, problem->b, x, covariance, &square, work);
     for (int c = 0; c < count; c++) gsl_vector_set(problem->trial, column[c], gsl_vector_get(x, c));
   }
   gsl_matrix_free(A);
   gsl_matrix_free(covariance);
   gsl_vector_free(x);
   gsl_multifit_linear_free(work);
-  return fine ? VSC_OK : vsc_fail_memory(error, "a calibration");
+  if (!fine) return vsc_fail_memory(error, "a calibration");
+  return failed ? vsc_fail(error, VSC_NUMERICAL, "a calibration: %s", gsl_strerror(failed)) : VSC_OK;
 }
 
 // The unknown held at zero by whose growth the misfit falls fastest, or -1.
@@ -339,8 +340,8 @@ static void fill_rows(least_squares *problem, const gsl_matrix *L, double least_
   }
 }
 
-vsc_status vsc_calibrate(const vsc_moduli *moduli, int axes, vsc_spring_constants *springs,
-                         vsc_error *error)
+static vsc_status calibrate(const vsc_moduli *moduli, int axes, vsc_spring_constants *springs,
+                            vsc_error *error)
 {
   double factor[36], lengths[UNKNOWNS];
   vsc_status status = factor_wanted(moduli, factor, error);
@@ -372,7 +373,26 @@ vsc_status vsc_calibrate(const vsc_moduli *moduli, int axes, vsc_spring_constant
   gsl_vector_free(problem.residual);
   gsl_vector_free(problem.x);
   gsl_vector_free(problem.trial);
-  return status == VSC_OK ? vsc_compare_springs(moduli, springs, error) : status;
+  return status == VSC_OK ? compare(moduli, springs, error) : status;
+}
+
+// GSL shall return its failures: by default it ends the process.
+vsc_status vsc_compare_springs(const vsc_moduli *moduli, vsc_spring_constants *springs,
+                               vsc_error *error)
+{
+  gsl_error_handler_t *handler = gsl_set_error_handler_off();
+  const vsc_status status = compare(moduli, springs, error);
+  gsl_set_error_handler(handler);
+  return status;
+}
+
+vsc_status vsc_calibrate(const vsc_moduli *moduli, int axes, vsc_spring_constants *springs,
+                         vsc_error *error)
+{
+  gsl_error_handler_t *handler = gsl_set_error_handler_off();
+  const vsc_status status = calibrate(moduli, axes, springs, error);
+  gsl_set_error_handler(handler);
+  return status;
 }
 
 // ---- as a material

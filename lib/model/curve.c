@@ -60,9 +60,12 @@ static vsc_status tabulate_points(const vsc_curve_def *d, vsc_curve *curve, vsc_
                       d->times[k], d->times[k - 1]);
   const size_t n = d->point_count;
   const gsl_interp_type *type = n > 2 ? gsl_interp_steffen : gsl_interp_linear;
-  gsl_set_error_handler_off();
+  gsl_error_handler_t *handler = gsl_set_error_handler_off();
   gsl_spline *spline = gsl_spline_alloc(type, n);
-  if (spline == NULL || gsl_spline_init(spline, d->times, d->values, n) != GSL_SUCCESS) {
+  const bool good =
+      spline != NULL && gsl_spline_init(spline, d->times, d->values, n) == GSL_SUCCESS;
+  gsl_set_error_handler(handler);
+  if (!good) {
     gsl_spline_free(spline);
     return vsc_fail(error, VSC_INPUT, "curve table: %zu points make no curve; give at least 2", n);
   }

@@ -54,8 +54,8 @@ typedef struct vsc_active_def {
   double tension;        // TENSION: at a = 1, kPa
   vsc_curve_def curve;
   double delay;                    // ms, default 0
-  char amplitude_array[VSC_NAME];  // tet array that multiplies the amplitude; empty: 1
-  char delay_array[VSC_NAME];      // tet array added to the delay; empty: 0
+  char amplitude_array[VSC_NAME];  // cell array that multiplies the amplitude; empty: 1
+  char delay_array[VSC_NAME];      // cell array added to the delay; empty: 0
   double delay_unit;               // ms per unit of delay_array; default 1
 } vsc_active_def;
 
@@ -149,10 +149,10 @@ typedef struct vsc_membrane_def {
   double direction[3];     // of axis a; default 1 0 0
 } vsc_membrane_def;
 
-// How the mass of an element goes to its nodes.
+// How the mass goes to the nodes.
 typedef enum vsc_mass_kind {
   VSC_MASS_LUMPED,   // row sums of the consistent mass: a quarter of a tet to each corner (default)
-  VSC_MASS_VORONOI,  // the part of the element that is nearer to this corner than to its others
+  VSC_MASS_VORONOI,  // what of the body is nearest to the node (model/masses.h)
   VSC_MASS_EQUAL,    // all nodes alike, the same total
 } vsc_mass_kind;
 
@@ -200,7 +200,7 @@ typedef struct vsc_pressure_def {
 } vsc_pressure_def;
 
 typedef struct vsc_definition {
-  char region_array[VSC_NAME];  // tet array of region numbers; empty: one region, 0
+  char region_array[VSC_NAME];  // cell array of region numbers; empty: one region, 0
   size_t material_count;
   vsc_material_def *materials;  // owned
   size_t vessel_count;

@@ -13,7 +13,7 @@ enum { VSC_PATH = 512 };  // bytes of a file name with its terminating zero
 typedef enum vsc_fiber_source {
   VSC_FIBER_NONE,          // no fibres: every element is passive, frames are the global axes
   VSC_FIBER_MAP,           // voxel map of azimuth and elevation
-  VSC_FIBER_ARRAYS,        // tet arrays of the mesh: a vector `fiber`, perhaps `sheet`
+  VSC_FIBER_ARRAYS,        // cell arrays of the mesh: a vector `fiber`, perhaps `sheet`
   VSC_FIBER_CONSTANT,      // one direction everywhere
   VSC_FIBER_HELIX,         // transmural helix of a ventricle
   VSC_FIBER_HORIZONTAL,    // the set of Fig. 6 of Bourguignon & Cani 2000: along x,

@@ -2,6 +2,7 @@
 // The masses of the nodes.
 #include "model/masses.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/mem.h"
@@ -96,7 +97,8 @@ static double nearest_part(const double tet[4][3], const double (*sites)[3], int
     if (s == own) continue;
     pieces *from = &memory[now], *to = &memory[1 - now];
     to->count = 0;
-    for (size_t k = 0; k < from->count && to->count + 3 <= MOST_PIECES; k++) {
+    for (size_t k = 0; k < from->count; k++) {
+      if (to->count + 3 > MOST_PIECES) return NAN;  // finish_masses refuses it
       double height[4];
       for (int i = 0; i < 4; i++) height[i] = lead(from->tets[k][i], sites[own], sites[s]);
       keep_above((const double(*)[3])from->tets[k], height, to);
@@ -282,8 +284,8 @@ static vsc_status finish_masses(const vsc_mesh *mesh, const vsc_definition *defi
       model->mass[n] = model->total_mass / (double)model->node_count;
     if (!(model->mass[n] > 0))
       return vsc_fail(error, VSC_INPUT,
-                      "masses: node %u would have no mass, nothing is nearest to it; use masses: "
-                      "lumped",
+                      "masses: node %u would have no mass: nothing is nearest to it, or an element "
+                      "beside it is too distorted; use masses: lumped",
                       mesh->node_source[model->mesh_node[n]]);
     for (int i = 0; i < 3; i++) model->inverse_mass[4 * n + i] = 1 / model->mass[n];
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the volume of an element is shared among its corners.
+// How the volume of elements is shared among nodes.
 #ifndef VSC_MODEL_MASSES_H
 #define VSC_MODEL_MASSES_H
 

@@ -213,8 +213,9 @@ static bool invert_within(double S[3][3], double inverse[3][3])
   gsl_matrix_view matrix = gsl_matrix_view_array(&S[0][0], 3, 3);
   gsl_vector_view value = gsl_vector_view_array(values, 3);
   gsl_matrix_view vector = gsl_matrix_view_array(vectors, 3, 3);
-  gsl_set_error_handler_off();
+  gsl_error_handler_t *handler = gsl_set_error_handler_off();
   gsl_eigen_symmv_workspace *work = gsl_eigen_symmv_alloc(3);
+  gsl_set_error_handler(handler);
   if (work == NULL) return false;
   gsl_eigen_symmv(&matrix.matrix, &value.vector, &vector.matrix, work);
   gsl_eigen_symmv_free(work);
@@ -300,6 +301,14 @@ static void free_edge(const double C[3][3], const double v[3], double B[3][VSC_B
   }
 }
 
+// w <- w - v (v.C w)/(v.C v): bending by w then does no work on v.
+static void without_moment(const double C[3][3], const double v[3], double w[3])
+{
+  const double moment[3] = {vsc_dot(C[0], v), vsc_dot(C[1], v), vsc_dot(C[2], v)};
+  const double part = vsc_dot(moment, w) / vsc_dot(moment, v);
+  for (int d = 0; d < 3; d++) w[d] -= part * v[d];
+}
+
 bool vsc_bend_stiffness(const double x[VSC_BEND_NODES][3], const bool has[VSC_BEND_FOLDS], double D,
                         double nu, double G[3][VSC_BEND_FOLDS])
 {
@@ -324,8 +333,13 @@ bool vsc_bend_stiffness(const double x[VSC_BEND_NODES][3], const bool has[VSC_BE
     for (int d = 0; d < 3; d++) B[d][i] += slope[i][d] / 2;
     if (!add_difference(x, has, i, nu, slope[i], B)) return false;
   }
-  for (int i = 0; i < 3; i++)
-    if (!has[i]) free_edge((const double(*)[3])C, slope[i], B);
+  for (int i = 0; i < 3; i++) {
+    if (has[i]) continue;
+    free_edge((const double(*)[3])C, slope[i], B);
+    // a further free edge must not bring moment back to this one
+    for (int j = i + 1; j < 3; j++)
+      if (!has[j]) without_moment((const double(*)[3])C, slope[i], slope[j]);
+  }
   // C = R^T R
   const double size = sqrt(D * area), R[3] = {1, sqrt(1 - nu * nu), sqrt((1 - nu) / 2)};
   for (int j = 0; j < VSC_BEND_FOLDS; j++) {

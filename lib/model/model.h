@@ -9,6 +9,7 @@
 #include <stdint.h>
 
 #include "base/status.h"
+#include "base/wide.h"
 #include "mesh/axes.h"
 #include "mesh/mesh.h"
 #include "mesh/select.h"
@@ -76,10 +77,10 @@ typedef struct vsc_hex_axes {
   vsc_wide w[3][8];
   vsc_wide r[3];       // |l_a| at rest, mm; the axes are at right angles then
   vsc_wide radius[8];  // distances of the corners from the barycentre at rest, mm
-  vsc_wide volume;     // mm^3; for totals only
+  vsc_wide volume;     // mm^3; for moduli per volume
 } vsc_hex_axes;
 
-// Moduli of four elements that hold inclusions, in place of the material's.
+// Moduli of four elements: their material's, or what inclusions make of them.
 typedef struct vsc_mixture {
   vsc_wide axial[3], angular[3], damping[3];
   vsc_wide volume_modulus, stabilization, element_modulus;
@@ -106,6 +107,7 @@ typedef struct vsc_material {
   double axial[3];         // E_f, E_s, E_n, kPa
   double angular[3];       // G_fs, G_sn, G_nf, kPa
   double damping[3];       // eta_f, eta_s, eta_n, kPa ms
+  bool damped;             // whether anything in it resists velocity, whatever its law
   double volume_modulus;   // K, kPa
   double stabilization;    // Ks, kPa: of each frame's own U(J) beside the shared volume of its nodes
                            // or its element; 0 when elements are alone, so that tets and other
@@ -209,7 +211,7 @@ typedef struct vsc_model {
   size_t partial_count;
   size_t most_nodes;  // of any patch
   size_t most_packs;  // of any patch
-  double element_size;  // mean distance of neighbouring nodes, mm
+  double element_size;  // mean distance of the first two nodes of all parts, mm
   uint8_t *known;     // pack_count x 4: 1 where the fibre is known
   double *amplitude;  // pack_count x 4: factor of the activation; NULL: 1 everywhere
   double *delay;      // pack_count x 4: ms, added to the material's; NULL: 0 everywhere
@@ -278,21 +280,42 @@ static inline int vsc_family_corners(uint32_t family)
   return vsc_cells[family].corners;
 }
 
-// Pack `k` (counted through all patches) of a patch of cells: its frames, and its nodes
+// Bytes of one pack of a family, and where among them its nodes begin.
+static inline size_t vsc_pack_size(const vsc_model *model, uint32_t family)
+{
+  if (family == VSC_SPRINGS_ON_EDGES) return sizeof(vsc_edge_pack);
+  if (family == VSC_TRIANGLES) return sizeof(vsc_triangle_pack);
+  if (family == VSC_BENDS) return sizeof(vsc_bend_pack);
+  return vsc_pack_bytes(vsc_family_corners(family), vsc_family_frames(model, family));
+}
+
+static inline size_t vsc_nodes_offset(const vsc_model *model, uint32_t family)
+{
+  if (family == VSC_SPRINGS_ON_EDGES) return offsetof(vsc_edge_pack, node);
+  if (family == VSC_TRIANGLES) return offsetof(vsc_triangle_pack, node);
+  if (family == VSC_BENDS) return offsetof(vsc_bend_pack, node);
+  return (size_t)vsc_family_frames(model, family) * sizeof(vsc_frame);
+}
+
+// The tets' kernel reads as a vsc_pack what others read as a frame and its nodes.
+_Static_assert(offsetof(vsc_pack, node) == sizeof(vsc_frame), "a tet's pack is a frame and nodes");
+
+// Pack `k` (counted through all patches) of a patch: its frames (of cells only), and its nodes
 // [corner][lane] as numbers within the patch.
 static inline const vsc_frame *vsc_pack_frames(const vsc_model *model, const vsc_patch *patch,
                                                size_t k)
 {
-  const size_t bytes =
-      vsc_pack_bytes(vsc_family_corners(patch->family), vsc_family_frames(model, patch->family));
-  return (const vsc_frame *)(model->store + patch->packs + (k - patch->first_pack) * bytes);
+  return (const vsc_frame *)(model->store + patch->packs +
+                             (k - patch->first_pack) * vsc_pack_size(model, patch->family));
 }
 
 static inline const uint16_t (*vsc_pack_nodes(const vsc_model *model, const vsc_patch *patch,
                                               size_t k))[VSC_WIDTH]
 {
-  return (const uint16_t(*)[VSC_WIDTH])(vsc_pack_frames(model, patch, k) +
-                                        vsc_family_frames(model, patch->family));
+  return (const uint16_t(*)[VSC_WIDTH])(model->store + patch->packs +
+                                        (k - patch->first_pack) *
+                                            vsc_pack_size(model, patch->family) +
+                                        vsc_nodes_offset(model, patch->family));
 }
 
 static inline const vsc_triangle_pack *vsc_triangles_of(const vsc_model *model,
@@ -304,6 +327,22 @@ static inline const vsc_triangle_pack *vsc_triangles_of(const vsc_model *model,
 static inline const vsc_bend_pack *vsc_bends_of(const vsc_model *model, const vsc_patch *patch)
 {
   return (const vsc_bend_pack *)(model->store + patch->packs);
+}
+
+// The moduli of a pack of a material: its own, or those of `mixture` where that is not NULL.
+VSC_INLINE vsc_mixture vsc_moduli_or(const vsc_material *material, const vsc_mixture *mixture)
+{
+  if (mixture != NULL) return *mixture;
+  vsc_mixture m = {.share = vsc_splat(1)};
+  for (int a = 0; a < 3; a++) {
+    m.axial[a] = vsc_splat(material->axial[a]);
+    m.angular[a] = vsc_splat(material->angular[a]);
+    m.damping[a] = vsc_splat(material->damping[a]);
+  }
+  m.volume_modulus = vsc_splat(material->volume_modulus);
+  m.stabilization = vsc_splat(material->stabilization);
+  m.element_modulus = vsc_splat(material->element_modulus);
+  return m;
 }
 
 // Law data and mixture of a pack; only where the patch has them.

@@ -163,21 +163,6 @@ static vsc_status list_sums(vsc_model *model, vsc_error *error)
   return VSC_OK;
 }
 
-// Bytes of one pack of a family.
-static size_t pack_bytes(const vsc_model *model, uint32_t family)
-{
-  switch (family) {
-    case VSC_SPRINGS_ON_EDGES:
-      return sizeof(vsc_edge_pack);
-    case VSC_TRIANGLES:
-      return sizeof(vsc_triangle_pack);
-    case VSC_BENDS:
-      return sizeof(vsc_bend_pack);
-    default:
-      return vsc_pack_bytes(vsc_family_corners(family), vsc_family_frames(model, family));
-  }
-}
-
 static size_t take(vsc_model *model, size_t bytes)
 {
   const size_t place = model->store_size;
@@ -197,7 +182,7 @@ static void start_patches(const cutter *cut, vsc_model *model)
     patch->first_pack = (uint32_t)model->pack_count;
     patch->first_frame = (uint32_t)model->frame_count;
     patch->pack_count = (count + VSC_WIDTH - 1) / VSC_WIDTH;
-    patch->packs = take(model, patch->pack_count * pack_bytes(model, patch->family));
+    patch->packs = take(model, patch->pack_count * vsc_pack_size(model, patch->family));
     const bool paper =
         vsc_patch_is_solid(patch) && model->materials[patch->material].law == VSC_LAW_PAPER;
     const size_t bytes = patch->family == VSC_TETS ? sizeof(vsc_chords) : sizeof(vsc_hex_axes);

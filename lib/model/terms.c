@@ -41,15 +41,15 @@ static vsc_status fill_activation(const vsc_mesh *mesh, const vsc_definition *de
     if (!vsc_patch_is_solid(patch) || patch->material != m) continue;
     const size_t first = VSC_WIDTH * (size_t)patch->first_pack;
     for (size_t slot = first; slot < first + VSC_WIDTH * (size_t)patch->pack_count; slot++) {
-      const uint32_t tet = model->mesh_element[slot];
-      if (tet == VSC_NO_ELEMENT) continue;
-      const double amplitude = amplitudes ? amplitudes[tet] : 1;
-      const double delay = delays ? delays[tet] * active->delay_unit : 0;
+      const uint32_t element = model->mesh_element[slot];
+      if (element == VSC_NO_ELEMENT) continue;
+      const double amplitude = amplitudes ? amplitudes[element] : 1;
+      const double delay = delays ? delays[element] * active->delay_unit : 0;
       if (!isfinite(amplitude) || !isfinite(delay))
         return vsc_fail(error, VSC_INPUT,
                         "materials[%zu].active: element %u has amplitude %g and delay %g ms; both "
                         "must be finite",
-                        m, mesh->element_source[tet], amplitude, delay);
+                        m, mesh->element_source[element], amplitude, delay);
       if (model->amplitude) model->amplitude[slot] = model->known[slot] ? amplitude : 0;
       if (model->delay) model->delay[slot] = delay;
     }

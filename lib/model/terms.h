@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The parts of the model that come after its elements: masses, volume groups, activation, named
-// sets, supports and loads. Internal to the model room; called in this order by vsc_model_build.
+// sets, supports and loads. Internal to the model room; called by vsc_model_build.
 #ifndef VSC_MODEL_TERMS_H
 #define VSC_MODEL_TERMS_H
 
@@ -8,7 +8,7 @@
 #include "mesh/topology.h"
 #include "model/model.h"
 
-// The numbers of the tet array `name`, or NULL for an empty name. A missing array, or one of vectors, is
+// The numbers of the cell array `name`, or NULL for an empty name. A missing array, or one of vectors, is
 // VSC_INPUT with the `key` that names it.
 vsc_status vsc_terms_element_values(const vsc_mesh *mesh, const char *name, const char *key,
                                 const double **values, vsc_error *error);

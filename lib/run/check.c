@@ -182,10 +182,13 @@ static void say_membranes(const vsc_model *model, FILE *out)
 
 static void say_terms(const vsc_model *model, FILE *out)
 {
-  const char *volumes = model->terms.nodal_volume ? "; volume of node groups and of each element"
-                                                  : "; volume of each element";
+  const char *volumes = "";
+  for (size_t m = 0; m < model->material_count; m++)
+    if (model->materials[m].element_count > 0 && model->materials[m].law != VSC_LAW_CLASSICAL)
+      volumes = model->terms.nodal_volume ? "; volume of node groups and of each element"
+                                          : "; volume of each element";
   fprintf(out, "terms      springs%s%s%s%s%s", model->terms.damping ? ", axial damping" : "",
-          model->element_count > 0 ? volumes : "",
+          volumes,
           model->terms.active == VSC_ACTIVE_SPRING ? "; active springs" : "",
           model->terms.active == VSC_ACTIVE_TENSION ? "; active tension" : "",
           model->terms.gravity ? "; gravity" : "");
@@ -209,17 +212,20 @@ static void say_terms(const vsc_model *model, FILE *out)
 }
 
 // Seconds of one step, by doing some.
-static double measure_step(const vsc_model *model, vsc_state *state)
+static vsc_status measure_step(const vsc_model *model, vsc_state *state, double *seconds,
+                               vsc_error *error)
 {
   const double dt = model->step > 0 ? model->step : state->limit.step;
   const double start = vsc_wall_seconds();
   double steps = 0, passed = 0;
   while (passed < 0.2 && steps < 1000) {
-    vsc_steps(model, state, dt, 1, NULL);
+    const vsc_status status = vsc_steps(model, state, dt, 1, error);
+    if (status != VSC_OK) return status;
     steps++;
     passed = vsc_wall_seconds() - start;
   }
-  return passed / steps;
+  *seconds = passed / steps;
+  return VSC_OK;
 }
 
 // What sits in a slot, and its centre: an element, or a triangle of a membrane.
@@ -235,17 +241,15 @@ static void say_part(const vsc_problem *problem, size_t slot, char *what, size_t
   }
   const vsc_patch *patch = model->patches;
   while (slot / VSC_WIDTH >= patch->first_pack + patch->pack_count) patch++;
-  const size_t k = slot / VSC_WIDTH - patch->first_pack;
-  const bool bends = patch->family == VSC_BENDS;
+  const uint16_t(*node)[VSC_WIDTH] = vsc_pack_nodes(model, patch, slot / VSC_WIDTH);
   for (int d = 0; d < 3; d++) centre[d] = 0;
   for (int i = 0; i < 3; i++) {
-    const uint16_t local = bends ? vsc_bends_of(model, patch)[k].node[i][slot % VSC_WIDTH]
-                                 : vsc_triangles_of(model, patch)[k].node[i][slot % VSC_WIDTH];
+    const uint16_t local = node[i][slot % VSC_WIDTH];
     for (int d = 0; d < 3; d++)
       centre[d] += model->rest[4 * (size_t)vsc_node_of(model, patch, local) + (size_t)d] / 3;
   }
   snprintf(what, size, "a triangle of %s%s", model->membranes[patch->material].name,
-           bends ? " (bending)" : "");
+           patch->family == VSC_BENDS ? " (bending)" : "");
 }
 
 static void say_step(const vsc_problem *problem, vsc_state *state, FILE *out)
@@ -266,18 +270,24 @@ static void say_step(const vsc_problem *problem, vsc_state *state, FILE *out)
 
 static double memory_bytes(const vsc_model *model)
 {
-  const double per_tet = sizeof(vsc_pack) / 4.0 + 4 + 1 + (model->amplitude ? 8 : 0) +
-                         (model->delay ? 8 : 0) + 16 + 72 + 1;
+  const double per_element =
+      4 + 1 + (model->amplitude ? 8 : 0) + (model->delay ? 8 : 0) + 16 + 72 + 1;
   const double per_node = (32 + 8 + 32 + 16 + 4) + 32 * (5 + 3 + 3 + 1) + 8;
-  return per_tet * (double)model->element_count + per_node * (double)model->node_count;
+  return (double)model->store_size + per_element * (double)model->element_count +
+         per_node * (double)model->node_count;
 }
 
-static void say_cost(const vsc_problem *problem, vsc_state *state, FILE *out)
+static vsc_status say_cost(const vsc_problem *problem, vsc_state *state, FILE *out,
+                           vsc_error *error)
 {
   const vsc_model *model = problem->model;
   const vsc_output_def *output = &problem->scene->output;
   const double dt = model->step > 0 ? model->step : state->limit.step;
-  const double steps = model->end_time / dt, seconds = measure_step(model, state) * steps;
+  const double steps = model->end_time / dt;
+  double seconds;
+  const vsc_status status = measure_step(model, state, &seconds, error);
+  if (status != VSC_OK) return status;
+  seconds *= steps;
   const double frames = 1 + model->end_time / output->frame_interval;
   const double number = output->double_precision ? 8 : 4;
   const double frame =
@@ -290,6 +300,7 @@ static void say_cost(const vsc_problem *problem, vsc_state *state, FILE *out)
           model->end_time, steps, seconds, vsc_parallel_threads(),
           vsc_parallel_threads() > 1 ? "s" : "", vsc_kernel_set(), 1e-6 * memory_bytes(model),
           frames, 1e-6 * frames * frame);
+  return VSC_OK;
 }
 
 vsc_status vsc_check(const vsc_problem *problem, FILE *stream, int *warnings, vsc_error *error)
@@ -314,7 +325,9 @@ vsc_status vsc_check(const vsc_problem *problem, FILE *stream, int *warnings, vs
   status = vsc_in_scene(problem->scene->file, vsc_start(model, state, error), error);
   if (status == VSC_OK) {
     say_step(problem, state, stream);
-    say_cost(problem, state, stream);
+    status = vsc_in_scene(problem->scene->file, say_cost(problem, state, stream, error), error);
+  }
+  if (status == VSC_OK) {
     const int found = vsc_check_warnings(problem, stream, "warning    ");
     if (found == 0) fprintf(stream, "warnings   none\n");
     if (warnings) *warnings = found;

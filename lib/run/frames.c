@@ -72,6 +72,9 @@ static vsc_status write_frame(vsc_job *job, const char *file, bool first_frame, 
 {
   const vsc_mesh *mesh = job->problem->mesh;
   const vsc_output_def *output = &job->problem->scene->output;
+  vsc_mesh shown = *mesh;
+  // a body's own triangles would lie on its elements' faces, without their fields
+  if (mesh->element_count > 0) shown.triangle_count = 0;
   vsc_vtk_array arrays[FIELDS + 1] = {0};
   const int fields = read_fields(job, first_frame, arrays);
   int count = fields;
@@ -82,7 +85,7 @@ static vsc_status write_frame(vsc_job *job, const char *file, bool first_frame, 
   if (count < 0)
     status = vsc_fail_memory(error, "a frame");
   else
-    status = vsc_vtk_write_mesh(file, mesh, (size_t)count, arrays, output->double_precision, error);
+    status = vsc_vtk_write_mesh(file, &shown, (size_t)count, arrays, output->double_precision, error);
   for (int k = 0; k < (fields < 0 ? FIELDS : fields); k++) vsc_free((void *)arrays[k].values);
   return status;
 }

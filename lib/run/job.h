@@ -19,7 +19,7 @@ typedef struct vsc_job {
   vsc_pvd *pvd;
   double *good;  // what vsc_job_keep_good has kept; owned
   double start_wall, start_cpu, start_steps, start_time;
-  double most_inverted;  // largest number of tets with J <= 0 at any row
+  double most_inverted;  // largest number of elements with J <= 0 at any row
 } vsc_job;
 
 // DIRECTORY/what, or DIRECTORY/NAME.what when `what` begins with a dot.
