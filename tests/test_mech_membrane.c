@@ -200,6 +200,7 @@ static void threads_do_not_matter(void **state)
       vsc_membrane_def membrane;
       openers[o](&body, &membrane);
       body_build(&body);
+      assert_true(body.model->patch_count > 2);  // else there is nothing to share
       body_start(&body);
       body_shake(&body, 0.2);
       body_steps(&body, 0.5 * body.state->limit.step, 100);
@@ -312,7 +313,6 @@ static void what_nothing_holds_is_refused(void **state)
   vsc_membrane_def membrane;
   vsc_error error;
   open_sheet(&body, &membrane);
-  vsc_copy_name(body.sets[0].name, "half");
   body.sets[0] =
       (vsc_selector){.kind = VSC_SELECT_BOX, .box_low = {-1, -1, -9}, .box_high = {5, 99, 9}};
   vsc_copy_name(body.sets[0].name, "half");

@@ -340,6 +340,48 @@ static void any_sheet_bends_like_the_plate(void **state)
 }
 
 // A curved sheet at rest moved and turned as a whole stores nothing.
+// A triangle with one neighbour: its free edges carry no moment, whichever numbers its corners have.
+static void free_edges_carry_no_moment(void **state)
+{
+  (void)state;
+  const double nu = 0.3, R[3] = {1, sqrt(1 - nu * nu), sqrt((1 - nu) / 2)};
+  uint64_t seed = 21;
+  for (int round = 0; round < 200; round++) {
+    double first = 0;
+    const double tip[2] = {random_between(&seed, -0.3, 1.3), random_between(&seed, 0.3, 1.5)};
+    const double corners[3][2] = {{0, 0}, {1, 0}, {tip[0], tip[1]}};
+    const double across[2] = {random_between(&seed, 0, 1), random_between(&seed, -1.5, -0.4)};
+    for (int turn = 0; turn < 3; turn++) {
+      double x[N][3] = {{0}}, G[3][FOLDS], energy = 0;
+      bool has[FOLDS] = {false};
+      for (int i = 0; i < 3; i++) memcpy(x[i], corners[(i + turn) % 3], 2 * sizeof(double));
+      const int hinge = (3 - turn) % 3;
+      has[hinge] = true;
+      memcpy(x[3 + hinge], across, sizeof across);
+      assert_true(vsc_bend_stiffness((const double(*)[3])x, has, 2, nu, G));
+      for (int k = 0; k < 3; k++) energy += G[k][hinge] * G[k][hinge];
+      if (turn == 0) first = energy;
+      // a few hundred roundings of slopes that slender triangles make large
+      assert_close(energy, first, 1e-11, 0);
+      // M = C k in the basis whose first vector lies along edge 0
+      const double k[3] = {G[0][hinge] - nu * G[1][hinge] / R[1], G[1][hinge] / R[1],
+                           G[2][hinge] / R[2]};
+      const double M[3] = {k[0] + nu * k[1], nu * k[0] + k[1], (1 - nu) / 2 * k[2]};
+      const double along[2] = {x[1][0] - x[0][0], x[1][1] - x[0][1]};
+      for (int i = 0; i < 3; i++) {
+        if (has[i]) continue;
+        const double *p = x[i], *q = x[(i + 1) % 3];
+        const double edge[2] = {q[0] - p[0], q[1] - p[1]};
+        const double size = hypot(edge[0], edge[1]) * hypot(along[0], along[1]);
+        const double t[2] = {(edge[0] * along[0] + edge[1] * along[1]) / size,
+                             (along[0] * edge[1] - along[1] * edge[0]) / size};
+        const double moment = M[0] * t[1] * t[1] + M[1] * t[0] * t[0] - 2 * M[2] * t[0] * t[1];
+        assert_close(moment, 0, 0, 1e-12 * sqrt(energy));
+      }
+    }
+  }
+}
+
 static void rigid_motion_of_a_curved_sheet_is_free(void **state)
 {
   (void)state;
@@ -376,6 +418,7 @@ int main(void)
       cmocka_unit_test(damping_follows_the_rates),
       cmocka_unit_test(triangles_without_area_are_left_out),
       cmocka_unit_test(any_sheet_bends_like_the_plate),
+      cmocka_unit_test(free_edges_carry_no_moment),
       cmocka_unit_test(rigid_motion_of_a_curved_sheet_is_free),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

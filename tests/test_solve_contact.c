@@ -33,15 +33,24 @@ static void advance(small_body *body, double until)
   if (vsc_advance(body->model, body->state, until, &error) != VSC_OK) fail_msg("%s", error.text);
 }
 
+// The least distance of any node from any obstacle, below 0 inside: of what stands still, or moves by
+// a ramp.
 static double deepest(const small_body *body)
 {
   double least = INFINITY;
-  for (size_t o = 0; o < body->model->obstacle_count; o++) {
-    double point[3], normal[3];
-    vsc_obstacle_place(&body->model->obstacles[o], body->state->time, point);
-    for (size_t n = 0; n < body->model->node_count; n++)
-      least = fmin(least, vsc_obstacle_gap(&body->model->obstacles[o], point,
-                                           body->state->x + 4 * n, normal));
+  for (size_t o = 0; o < body->definition.obstacle_count; o++) {
+    const vsc_obstacle_def *def = &body->definition.obstacles[o];
+    const double part = fmin(body->state->time / def->curve.duration, 1);
+    for (size_t n = 0; n < body->model->node_count; n++) {
+      double way[3];
+      for (int i = 0; i < 3; i++)
+        way[i] = body->state->x[4 * n + i] - def->point[i] -
+                 (def->motion[i] != 0 ? part * def->motion[i] : 0);
+      const double gap = def->kind == VSC_OBSTACLE_SPHERE
+                             ? vsc_norm(way) - def->radius
+                             : vsc_dot(way, def->normal) / vsc_norm(def->normal);
+      least = fmin(least, gap);
+    }
   }
   return least;
 }
@@ -157,8 +166,8 @@ static void a_corner_holds_on_all_sides(void **state)
   body_close(&body);
 }
 
-// A sphere that is pressed into a block, which lies on a table, and taken back: what the sphere does
-// the table feels, the work of its way comes back but for what damping takes.
+// A sphere is pressed into a block that lies on a table: no node enters either, what the sphere does the
+// table feels, and the work of its way is stored or lost in the ledger's terms.
 static void a_sphere_presses(void **state)
 {
   (void)state;
@@ -192,6 +201,7 @@ static void a_sphere_presses(void **state)
   assert_true(sphere->work > 0);
   assert_close(table->work, 0, 0, 0);
   energy(&body, ledger, &balance);
+  print_message("balance %g of %g\n", balance, sphere->work);
   assert_true(fabs(balance) < 0.02 * sphere->work);
   vsc_ledger_free(ledger);
   body_close(&body);

@@ -132,10 +132,16 @@ static void test_other_laws_are_left_out(void **state)
        "echo 'materials:'; echo '  - {name: wire, regions: [7], law: classical, classical: "
        "{stiffness: 2 N/m}}'; "
        "$V calibrate --isotropic 10kPa,0.3) >two.yaml; $V calibrate two.yaml");
-  assert_holds(said, "material wire: only law: springs");
+  assert_holds(complained, "material wire: only law: springs");
   assert_holds(said, "tissue, at rest");
   assert_int_equal(shell("$V calibrate two.yaml --material wire"), 2);
   assert_holds(complained, "wire");
+  assert_int_equal(shell("$V calibrate " VSC_SOURCE_DIR "/data/paper/hanging_paper.yaml"), 2);
+  assert_holds(complained, "only law: springs");
+  assert_int_equal(shell("$V calibrate --isotropic 10kPa,0.3 --material tissue"), 2);
+  assert_holds(complained, "belong to a scene");
+  assert_int_equal(shell("$V calibrate two.yaml --axes 9"), 2);
+  assert_holds(complained, "--axes");
   assert_int_equal(shell("$V calibrate two.yaml --picture p.png"), 2);
   assert_holds(complained, "--material");
 }

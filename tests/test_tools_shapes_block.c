@@ -66,6 +66,9 @@ static void blocks_of_all_kinds(void **state)
       assert_int_equal(vsc_block_of(&shape, (vsc_block_kind)kind, &mesh, NULL), VSC_OK);
       is_a_box(mesh, shape.size);
       for (size_t e = 0; e < mesh->element_count; e++) count[mesh->kinds[e]]++;
+      size_t moved = 0;  // along x, of the grid's inner nodes
+      for (size_t n = 0; n < 6 * 4 * 5; n++) moved += fabs(remainder(mesh->nodes[3 * n], 2)) > 1e-9;
+      assert_int_equal(moved, jittered * 4 * 2 * 3);
       assert_memory_equal(count, expected[kind], sizeof count);
       assert_int_equal(mesh->node_count, 6 * 4 * 5 + (kind == VSC_BLOCK_MIXED ? across : 0));
       vsc_mesh_free(mesh);

@@ -4,12 +4,8 @@
 
 #include "close.h"
 #include "mesh/surface.h"
+#include "sheet_mesh.h"
 #include "tools/shapes_sheet.h"
-
-static vsc_surface triangles_of(const vsc_mesh *mesh)
-{
-  return (vsc_surface){.name = "all", .count = mesh->triangle_count, .triangles = mesh->triangles};
-}
 
 static size_t marked(const vsc_mesh *mesh, const char *name)
 {
@@ -38,7 +34,7 @@ static void a_sheet_is_flat_and_whole(void **state)
   assert_int_equal(marked(mesh, "x1"), 6);
   assert_int_equal(marked(mesh, "y0"), 8);
   assert_int_equal(marked(mesh, "y1"), 8);
-  const vsc_surface all = triangles_of(mesh);
+  const vsc_surface all = all_triangles(mesh);
   assert_close(vsc_surface_area(&all, mesh->nodes, 3), 6, 1e-14, 0);
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     const double *x[3];
@@ -47,6 +43,15 @@ static void a_sheet_is_flat_and_whole(void **state)
                 (x[1][1] - x[0][1]) * (x[2][0] - x[0][0]));
     assert_true(x[0][2] == 0);
   }
+  // jitter moves the inner nodes along both axes, and no others
+  size_t moved[2] = {0};
+  for (size_t n = 0; n < mesh->node_count; n++)
+    for (size_t i = 0; i < 2; i++) {
+      const double cells = mesh->nodes[3 * n + i] / (shape.size[i] / (double)shape.cells[i]);
+      moved[i] += fabs(cells - round(cells)) > 1e-9;
+    }
+  assert_int_equal(moved[0], 6 * 4);
+  assert_int_equal(moved[1], 6 * 4);
   vsc_mesh_free(mesh);
 }
 
@@ -61,7 +66,7 @@ static void a_tube_is_open_at_two_ends(void **state)
   assert_int_equal(mesh->triangle_count, 2 * 32 * 20);
   assert_int_equal(marked(mesh, "z0"), 32);
   assert_int_equal(marked(mesh, "z1"), 32);
-  const vsc_surface all = triangles_of(mesh);
+  const vsc_surface all = all_triangles(mesh);
   assert_close(vsc_surface_area(&all, mesh->nodes, 3), 40 * 64 * 10 * sin(M_PI / 32), 1e-13, 0);
   vsc_cavity cavity;
   assert_int_equal(vsc_cavity_make(&all, mesh->node_count, &cavity, NULL), VSC_OK);

@@ -64,8 +64,10 @@ typedef struct request {
   const char *material, *picture;
   bool young, shear, poisson, isotropic, incompressible;
   vsc_moduli moduli;
-  double volume_modulus;  // 0: not given
-  int axes, random;
+  bool volume_given;
+  double volume_modulus;
+  int axes;  // 0: not given
+  int random;
 } request;
 
 static int fail(const vsc_error *error)
@@ -152,6 +154,7 @@ static vsc_status read_option(int option, request *wish, vsc_error *error)
     case 'i':
       return read_isotropic(wish, error);
     case 'k':
+      wish->volume_given = true;
       return read_list("volume-modulus", optarg, moduli, 1, true, &wish->volume_modulus, error);
     case 'a':
       return read_axes(wish, error);
@@ -175,11 +178,13 @@ static vsc_status check_form(const request *wish, vsc_error *error)
 {
   const bool given = wish->young || wish->shear || wish->poisson;
   if (wish->scene.scene != NULL) {
-    if (!given && !wish->isotropic && !wish->incompressible && wish->volume_modulus == 0)
-      return VSC_OK;
+    if (wish->axes != 0) return vsc_fail(error, VSC_INPUT, "--axes is for moduli, not for a scene");
+    if (!given && !wish->isotropic && !wish->incompressible && !wish->volume_given) return VSC_OK;
     return vsc_fail(error, VSC_INPUT, "give a scene or moduli, not both");
   }
-  if (wish->isotropic && !given && !wish->incompressible && wish->volume_modulus == 0)
+  if (wish->material != NULL || wish->scene.setting_count > 0)
+    return vsc_fail(error, VSC_INPUT, "--material and --set belong to a scene");
+  if (wish->isotropic && !given && !wish->incompressible && !wish->volume_given)
     return VSC_OK;
   if (wish->isotropic)
     return vsc_fail(error, VSC_INPUT,
@@ -191,7 +196,7 @@ static vsc_status check_form(const request *wish, vsc_error *error)
                     "tells more");
   if (wish->poisson == wish->incompressible)
     return vsc_fail(error, VSC_INPUT, "give either --poisson or --incompressible");
-  if (wish->volume_modulus != 0 && !wish->incompressible)
+  if (wish->volume_given && !wish->incompressible)
     return vsc_fail(error, VSC_INPUT,
                     "--volume-modulus: it follows from --poisson; give it with --incompressible");
   return VSC_OK;
@@ -239,7 +244,7 @@ static vsc_status describe_scene(const request *wish, vsc_error *error)
       vsc_scene_read(options->scene, options->settings, options->setting_count, &scene, error);
   if (status != VSC_OK) return status;
   const vsc_definition *definition = &scene->definition;
-  size_t found = 0;
+  size_t found = 0, described = 0;
   if (wish->picture != NULL && wish->material == NULL && definition->material_count > 1)
     status = vsc_fail(error, VSC_INPUT, "--picture: %s has %zu materials: choose one by --material",
                       options->scene, definition->material_count);
@@ -248,10 +253,14 @@ static vsc_status describe_scene(const request *wish, vsc_error *error)
     if (wish->material != NULL && strcmp(wish->material, material->name) != 0) continue;
     if (found++ > 0) putchar('\n');
     status = describe(wish, material, definition->volume, error);
-    if (status != VSC_INPUT || wish->material != NULL) continue;
-    puts(error->text);  // another law: the other materials follow
+    described += status == VSC_OK;
+    if (status != VSC_INPUT || wish->material != NULL || definition->material_count == 1) continue;
+    fprintf(stderr, "viscera: calibrate: %s\n", error->text);  // another law: other materials follow
     status = VSC_OK;
   }
+  if (status == VSC_OK && found > 0 && described == 0)
+    status = vsc_fail(error, VSC_INPUT, "%s: none of its materials can be described",
+                      options->scene);
   if (status == VSC_OK && found == 0)
     status = vsc_fail(error, VSC_INPUT, "--material %s: %s has no such material", wish->material,
                       options->scene);
@@ -264,16 +273,17 @@ static vsc_status describe_scene(const request *wish, vsc_error *error)
 static vsc_status find_springs(request *wish, vsc_spring_constants *springs, vsc_error *error)
 {
   vsc_moduli *moduli = &wish->moduli;
-  if (!wish->incompressible) return vsc_calibrate(moduli, wish->axes, springs, error);
+  const int axes = wish->axes == 0 ? 3 : wish->axes;
+  if (!wish->incompressible) return vsc_calibrate(moduli, axes, springs, error);
   const double *Y = moduli->young;
-  if (wish->volume_modulus == 0) wish->volume_modulus = 100 * fmax(Y[0], fmax(Y[1], Y[2]));
+  if (!wish->volume_given) wish->volume_modulus = 100 * fmax(Y[0], fmax(Y[1], Y[2]));
   *springs = (vsc_spring_constants){.volume_modulus = wish->volume_modulus};
   memcpy(springs->angular, moduli->shear, sizeof springs->angular);
   vsc_status status = vsc_moduli_incompressible(wish->volume_modulus, moduli, error);
   if (status == VSC_OK) status = vsc_axial_incompressible(Y, springs->axial, error);
   if (status != VSC_OK) return status;
-  if (wish->axes > 3 || fmin(springs->axial[0], fmin(springs->axial[1], springs->axial[2])) < 0)
-    return vsc_calibrate(moduli, wish->axes, springs, error);
+  if (axes > 3 || fmin(springs->axial[0], fmin(springs->axial[1], springs->axial[2])) < 0)
+    return vsc_calibrate(moduli, axes, springs, error);
   return vsc_compare_springs(moduli, springs, error);
 }
 
@@ -331,7 +341,7 @@ int vsc_verb_calibrate(int argc, char **argv)
                                           {"picture", required_argument, NULL, 'P'},
                                           {"help", no_argument, NULL, 'h'},
                                           {0}};
-  request wish = {.axes = 3};
+  request wish = {0};
   vsc_error error;
   for (int c; (c = getopt_long(argc, argv, "m:s:h", options, NULL)) != -1;) {
     if (c == 'h') return fputs(help, stdout) < 0 ? VSC_SYSTEM : VSC_OK;

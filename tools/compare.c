@@ -193,15 +193,6 @@ static size_t print_missing(const vsc_pvd *have, const vsc_pvd *lack, const char
   return missing;
 }
 
-// The path of a frame: beside its series.
-static void frame_path(const char *file, const vsc_pvd *series, size_t frame, char path[PATH])
-{
-  const char *slash = strrchr(file, '/');
-  const char *name = vsc_pvd_frame(series, frame);
-  const int folder = slash == NULL || name[0] == '/' ? 0 : (int)(slash - file) + 1;
-  snprintf(path, PATH, "%.*s%s", folder, file, name);
-}
-
 static vsc_status add_frames(comparison *all, const char *file_a, const vsc_pvd *a,
                              const char *file_b, const vsc_pvd *b, size_t *missing,
                              vsc_error *error)
@@ -211,8 +202,8 @@ static vsc_status add_frames(comparison *all, const char *file_a, const vsc_pvd 
     char path_a[PATH], path_b[PATH];
     const size_t other = frame_at(b, vsc_pvd_time(a, f));
     if (other == vsc_pvd_count(b)) continue;
-    frame_path(file_a, a, f, path_a);
-    frame_path(file_b, b, other, path_b);
+    vsc_pvd_frame_path(file_a, a, f, path_a, sizeof path_a);
+    vsc_pvd_frame_path(file_b, b, other, path_b, sizeof path_b);
     if (add_meshes(all, path_a, path_b, error) != VSC_OK) return error->status;
     common++;
   }

@@ -149,16 +149,6 @@ static vsc_status info_image(const char *file, vsc_error *error)
   return VSC_OK;
 }
 
-// `name` as written in the series `file`, seen from here.
-static void beside(const char *file, const char *name, char *path, size_t size)
-{
-  const char *slash = strrchr(file, '/');
-  if (slash == NULL || name[0] == '/')
-    snprintf(path, size, "%s", name);
-  else
-    snprintf(path, size, "%.*s/%s", (int)(slash - file), file, name);
-}
-
 static vsc_status info_series(const char *file, vsc_error *error)
 {
   if (access(file, R_OK) != 0) return vsc_fail(error, VSC_INPUT, "%s: no such file", file);
@@ -177,13 +167,13 @@ static vsc_status info_series(const char *file, vsc_error *error)
   }
   size_t missing = 0;
   for (size_t f = 0; f < frames; f++) {
-    beside(file, vsc_pvd_frame(series, f), path, sizeof path);
+    vsc_pvd_frame_path(file, series, f, path, sizeof path);
     if (access(path, R_OK) == 0) continue;
     if (missing++ < 5) printf("  MISSING                %s\n", vsc_pvd_frame(series, f));
   }
   if (missing > 5) printf("  MISSING                %zu more\n", missing - 5);
   if (frames > missing) {
-    beside(file, vsc_pvd_frame(series, frames - 1), path, sizeof path);
+    vsc_pvd_frame_path(file, series, frames - 1, path, sizeof path);
     printf("the last frame, ");
     status = info_mesh(path, error);
   }

@@ -117,12 +117,12 @@ static vsc_status measure_file(const wish *wish, const char *file, double time, 
 static vsc_status measure_folder(const wish *wish, const char *folder, vsc_error *error)
 {
   vsc_results results;
-  char file[2 * VSC_PATH];
+  char file[2 * VSC_RESULT_PATH];
   vsc_status status = vsc_results_open(folder, &results, error);
   if (status != VSC_OK) return status;
   const size_t count = vsc_pvd_count(results.series);
   for (size_t f = wish->frames ? 0 : count - 1; f < count && status == VSC_OK; f++) {
-    vsc_results_file(&results, f, file);
+    vsc_pvd_frame_path(results.pvd, results.series, f, file, sizeof file);
     status = measure_file(wish, file, vsc_pvd_time(results.series, f), error);
   }
   vsc_results_close(&results);

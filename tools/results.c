@@ -6,12 +6,12 @@
 #include <stdio.h>
 #include <string.h>
 
-static vsc_status find_series(const char *folder, char pvd[VSC_PATH], vsc_error *error)
+static vsc_status find_series(const char *folder, char pvd[VSC_RESULT_PATH], vsc_error *error)
 {
-  char pattern[VSC_PATH];
+  char pattern[VSC_RESULT_PATH];
   size_t length = strlen(folder);
   while (length > 1 && folder[length - 1] == '/') length--;
-  if (length + 16 > VSC_PATH) return vsc_fail(error, VSC_INPUT, "the folder's name is too long");
+  if (length + 16 > VSC_RESULT_PATH) return vsc_fail(error, VSC_INPUT, "the folder's name is too long");
   snprintf(pattern, sizeof pattern, "%.*s/*.pvd", (int)length, folder);
   glob_t found = {0};
   if (glob(pattern, 0, NULL, &found) != 0)
@@ -23,7 +23,7 @@ static vsc_status find_series(const char *folder, char pvd[VSC_PATH], vsc_error 
     status = vsc_fail(error, VSC_INPUT, "%s: there are %zu series (*.pvd), expected one", folder,
                       found.gl_pathc);
   else
-    snprintf(pvd, VSC_PATH, "%s", found.gl_pathv[0]);
+    snprintf(pvd, VSC_RESULT_PATH, "%s", found.gl_pathv[0]);
   globfree(&found);
   return status;
 }
@@ -50,14 +50,6 @@ size_t vsc_results_nearest(const vsc_results *results, double time)
     if (fabs(vsc_pvd_time(series, f) - time) < fabs(vsc_pvd_time(series, nearest) - time))
       nearest = f;
   return nearest;
-}
-
-void vsc_results_file(const vsc_results *results, size_t frame, char file[2 * VSC_PATH])
-{
-  const char *name = vsc_pvd_frame(results->series, frame);
-  const char *slash = strrchr(results->pvd, '/');
-  const int folder = name[0] == '/' ? 0 : (int)(slash + 1 - results->pvd);
-  snprintf(file, 2 * VSC_PATH, "%.*s%s", folder, results->pvd, name);
 }
 
 void vsc_results_close(vsc_results *results)

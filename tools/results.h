@@ -7,10 +7,10 @@
 
 #include "io/pvd.h"
 
-enum { VSC_PATH = 4096 };  // room for a file's name
+enum { VSC_RESULT_PATH = 4096 };  // room for a file's name
 
 typedef struct vsc_results {
-  char pvd[VSC_PATH];  // the series' file
+  char pvd[VSC_RESULT_PATH];  // the series' file
   vsc_pvd *series;     // owned; at least one frame
 } vsc_results;
 
@@ -21,9 +21,6 @@ vsc_status vsc_results_open(const char *folder, vsc_results *results, vsc_error 
 
 // The frame nearest to that time (s); the last for NAN.
 size_t vsc_results_nearest(const vsc_results *results, double time);
-
-// The file of a frame, whose name is relative to the series.
-void vsc_results_file(const vsc_results *results, size_t frame, char file[2 * VSC_PATH]);
 
 void vsc_results_close(vsc_results *results);
 

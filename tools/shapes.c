@@ -9,33 +9,7 @@
 #include "base/vec3.h"
 #include "fibers/helix.h"
 #include "fibers/sample.h"
-
-// Corners of a brick: 0 to 3 round the bottom, 4 to 7 above them. The corners 0 2 5 7 hold the
-// middle tet; in a mirrored brick 1 3 4 6 do.
-static const int five[5][4] = {
-    {0, 2, 7, 5}, {1, 0, 5, 2}, {3, 0, 2, 7}, {4, 0, 7, 5}, {6, 2, 5, 7}};
-static const int five_mirrored[5][4] = {
-    {1, 3, 4, 6}, {0, 1, 3, 4}, {2, 1, 6, 3}, {5, 1, 4, 6}, {7, 3, 6, 4}};
-static const int six[6][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6},
-                              {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
-
-static void cut_brick(vsc_mesh *mesh, size_t brick, const uint32_t corner[8], int tets,
-                      bool mirrored)
-{
-  const int(*pattern)[4] = tets == 6 ? six : mirrored ? five_mirrored : five;
-  for (int t = 0; t < tets; t++) {
-    uint32_t *tet = &mesh->corners[4 * (brick * (size_t)tets + (size_t)t)];
-    for (int i = 0; i < 4; i++) tet[i] = corner[pattern[t][i]];
-  }
-}
-
-static bool add_region(vsc_mesh *mesh)
-{
-  vsc_array *region = vsc_arrays_add(&mesh->element_data, "region", 1, mesh->element_count);
-  if (region == NULL) return false;
-  for (size_t e = 0; e < mesh->element_count; e++) region->values[e] = 1;
-  return true;
-}
+#include "tools/shapes_bricks.h"
 
 static bool all_right_handed(const vsc_mesh *mesh)
 {
@@ -255,7 +229,8 @@ static void cut_column(const lv_grid *grid, vsc_mesh *mesh, size_t column, const
       corner[c] = (uint32_t)(layer * grid->per_layer) + quad[c];
       corner[c + 4] = corner[c] + (uint32_t)grid->per_layer;
     }
-    cut_brick(mesh, column * grid->lv->layers + layer, corner, 5, (parity + layer) % 2 == 1);
+    vsc_brick_cut(corner, 5, (parity + layer) % 2 == 1,
+                  &mesh->corners[20 * (column * grid->lv->layers + layer)]);
   }
 }
 
@@ -299,7 +274,7 @@ static bool mark_lv(const lv_grid *grid, vsc_mesh *mesh)
       mark[2][node] = base;
       mark[3][node] = base && layer == last;
     }
-  return add_region(mesh);
+  return vsc_region_add(mesh);
 }
 
 vsc_status vsc_lv_mesh(const vsc_lv_shape *lv, vsc_mesh **result, vsc_error *error)
@@ -430,18 +405,12 @@ static void place_block_node(const vsc_block_shape *block, vsc_mesh *mesh, size_
 
 static void cut_block(const vsc_block_shape *block, vsc_mesh *mesh)
 {
-  const uint32_t along_y = (uint32_t)block->cells[0] + 1;
-  const uint32_t along_z = along_y * ((uint32_t)block->cells[1] + 1);
-  size_t brick = 0;
-  for (size_t k = 0; k < block->cells[2]; k++)
-    for (size_t j = 0; j < block->cells[1]; j++)
-      for (size_t i = 0; i < block->cells[0]; i++) {
-        const uint32_t c = (uint32_t)i + along_y * (uint32_t)j + along_z * (uint32_t)k;
-        const uint32_t corner[8] = {
-            c,           c + 1,           c + 1 + along_y,           c + along_y,
-            c + along_z, c + 1 + along_z, c + 1 + along_y + along_z, c + along_y + along_z};
-        cut_brick(mesh, brick++, corner, block->tets_per_cell, (i + j + k) % 2 == 1);
-      }
+  const size_t *cells = block->cells, tets = (size_t)block->tets_per_cell;
+  for (size_t b = 0; b < cells[0] * cells[1] * cells[2]; b++) {
+    uint32_t corner[8];
+    const bool mirrored = vsc_brick_corners(cells, b, corner);
+    vsc_brick_cut(corner, block->tets_per_cell, mirrored, &mesh->corners[4 * tets * b]);
+  }
 }
 
 vsc_status vsc_block_mesh(const vsc_block_shape *block, vsc_mesh **result, vsc_error *error)
@@ -458,7 +427,7 @@ vsc_status vsc_block_mesh(const vsc_block_shape *block, vsc_mesh **result, vsc_e
   for (int a = 0; a < 6 && complete; a++)
     complete = vsc_arrays_add(&mesh->node_data, names[a], 1, nodes) != NULL;
   cut_block(block, mesh);
-  if (!complete || !add_region(mesh)) {
+  if (!complete || !vsc_region_add(mesh)) {
     vsc_mesh_free(mesh);
     return vsc_fail_memory(error, "the block's arrays");
   }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "tools/shapes_bricks.h"
 
 // Pieces of a brick with the corners 0 to 3 round the bottom, 4 to 7 above them and 8 in the
 // middle.
@@ -40,21 +41,6 @@ static int cut_of(vsc_block_kind kind, size_t i, size_t cells)
   return i > cells / 2 ? SIXTHS : i < cells / 4 ? WHOLE : HALVES;
 }
 
-// The brick's corners, and whether it has a centre of its own.
-static void find_brick(const vsc_block_shape *block, size_t brick, uint32_t corner[8])
-{
-  const size_t *cells = block->cells;
-  const uint32_t along_y = (uint32_t)cells[0] + 1, along_z = along_y * ((uint32_t)cells[1] + 1);
-  const uint32_t c = (uint32_t)(brick % cells[0]) +
-                     along_y * (uint32_t)(brick / cells[0] % cells[1]) +
-                     along_z * (uint32_t)(brick / cells[0] / cells[1]);
-  const uint32_t bottom[4] = {c, c + 1, c + 1 + along_y, c + along_y};
-  for (int i = 0; i < 4; i++) {
-    corner[i] = bottom[i];
-    corner[i + 4] = bottom[i] + along_z;
-  }
-}
-
 static void place_centre(vsc_mesh *mesh, const uint32_t corner[8], size_t centre)
 {
   for (int i = 0; i < 8; i++)
@@ -87,7 +73,7 @@ static void cut_bricks(const vsc_block_shape *block, vsc_block_kind kind, size_t
   for (size_t b = 0; b < bricks; b++) {
     uint32_t corner[9];
     const int way = cut_of(kind, b % block->cells[0], block->cells[0]);
-    find_brick(block, b, corner);
+    vsc_brick_corners(block->cells, b, corner);
     corner[8] = (uint32_t)centre;
     if (way == STAR) place_centre(mesh, corner, centre++);
     for (size_t p = 0; p < cuts[way].count; p++) {
@@ -106,9 +92,7 @@ static bool copy_arrays(const vsc_mesh *from, vsc_mesh *to)
     if (copy == NULL) return false;
     memcpy(copy->values, array->values, from->node_count * sizeof *array->values);
   }
-  vsc_array *region = vsc_arrays_add(&to->element_data, "region", 1, to->element_count);
-  for (size_t e = 0; region != NULL && e < to->element_count; e++) region->values[e] = 1;
-  return region != NULL;
+  return vsc_region_add(to);
 }
 
 vsc_status vsc_block_of(const vsc_block_shape *shape, vsc_block_kind kind, vsc_mesh **result,

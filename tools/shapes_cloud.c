@@ -9,6 +9,7 @@
 #include "base/mem.h"
 #include "base/vec3.h"
 #include "io/vtk_delaunay.h"
+#include "tools/shapes_bricks.h"
 
 enum {
   CANDIDATES = 40,  // of which the farthest from all points becomes the next one
@@ -133,9 +134,10 @@ static void place_edges(cloud *c)
 static vsc_status place_points(cloud *c, vsc_error *error)
 {
   const double *size = c->shape->size;
-  c->spacing = fmax(size[0], fmax(size[1], size[2]));
+  const double longest = fmax(size[0], fmax(size[1], size[2]));
+  c->spacing = longest;
   while (wanted(c) < (double)c->shape->points) c->spacing *= 0.99;
-  while (on_surface(c) + 1 > c->shape->points && c->spacing < 4 * size[0]) c->spacing *= 1.01;
+  while (on_surface(c) + 1 > c->shape->points && c->spacing < 4 * longest) c->spacing *= 1.01;
   if (on_surface(c) + 1 > c->shape->points)
     return vsc_fail(error, VSC_INPUT,
                     "unstructured block: %zu points are too few for a box of %g x %g x %g mm",
@@ -317,9 +319,7 @@ static vsc_status build(const cloud *c, vsc_mesh **result, vsc_error *error)
     complete = array != NULL;
     for (size_t i = 0; i < c->count && complete; i++) array->values[i] = c->places[i] >> a & 1;
   }
-  vsc_array *region = vsc_arrays_add(&mesh->element_data, "region", 1, c->tet_count);
-  for (size_t t = 0; t < c->tet_count && region != NULL; t++) region->values[t] = 1;
-  if (!complete || region == NULL) {
+  if (!complete || !vsc_region_add(mesh)) {
     vsc_mesh_free(mesh);
     return vsc_fail_memory(error, "the block's arrays");
   }

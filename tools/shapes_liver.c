@@ -6,6 +6,7 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
+#include "tools/shapes_bricks.h"
 
 void vsc_liver_point(const double ball[3], double point[3])
 {
@@ -30,15 +31,6 @@ static void cube_to_ball(const double x[3], double ball[3])
   }
 }
 
-static void cut_brick(uint32_t *tets, const uint32_t corner[8], bool mirrored)
-{
-  static const int five[2][5][4] = {
-      {{0, 2, 7, 5}, {1, 0, 5, 2}, {3, 0, 2, 7}, {4, 0, 7, 5}, {6, 2, 5, 7}},
-      {{1, 3, 4, 6}, {0, 1, 3, 4}, {2, 1, 6, 3}, {5, 1, 4, 6}, {7, 3, 6, 4}}};
-  for (int t = 0; t < 5; t++)
-    for (int i = 0; i < 4; i++) tets[4 * t + i] = corner[five[mirrored][t][i]];
-}
-
 static void place_nodes(size_t cells, vsc_mesh *mesh, vsc_array *sides[4])
 {
   const size_t n = cells + 1;
@@ -57,16 +49,11 @@ static void place_nodes(size_t cells, vsc_mesh *mesh, vsc_array *sides[4])
 
 static void cut_bricks(size_t cells, vsc_mesh *mesh)
 {
-  static const size_t corners[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                       {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-  const size_t n = cells + 1;
+  const size_t box[3] = {cells, cells, cells};
   for (size_t b = 0; b < cells * cells * cells; b++) {
-    const size_t at[3] = {b % cells, b / cells % cells, b / cells / cells};
     uint32_t corner[8];
-    for (int c = 0; c < 8; c++)
-      corner[c] = (uint32_t)(at[0] + corners[c][0] + n * (at[1] + corners[c][1]) +
-                             n * n * (at[2] + corners[c][2]));
-    cut_brick(mesh->corners + 20 * b, corner, (at[0] + at[1] + at[2]) % 2 == 1);
+    const bool mirrored = vsc_brick_corners(box, b, corner);
+    vsc_brick_cut(corner, 5, mirrored, mesh->corners + 20 * b);
   }
 }
 
@@ -80,14 +67,12 @@ vsc_status vsc_liver_mesh(size_t cells, vsc_mesh **mesh, vsc_error *error)
   bool good = made != NULL;
   for (int s = 0; s < 4 && good; s++)
     good = vsc_arrays_add(&made->node_data, names[s], 1, nodes) != NULL;
-  vsc_array *region = good ? vsc_arrays_add(&made->element_data, "region", 1, made->element_count) : NULL;
-  if (region == NULL) {
+  if (!good || !vsc_region_add(made)) {
     vsc_mesh_free(made);
     return vsc_fail_memory(error, "the liver");
   }
   vsc_array *sides[4];
   for (int s = 0; s < 4; s++) sides[s] = &made->node_data.items[s];
-  for (size_t e = 0; e < made->element_count; e++) region->values[e] = 1;
   place_nodes(cells, made, sides);
   cut_bricks(cells, made);
   *mesh = made;

@@ -52,6 +52,14 @@ static bool append(vsc_pvd *pvd, double time, char *name)
   return true;
 }
 
+void vsc_pvd_frame_path(const char *file, const vsc_pvd *pvd, size_t frame, char *path,
+                        size_t size)
+{
+  const char *name = vsc_pvd_frame(pvd, frame), *slash = strrchr(file, '/');
+  const int folder = slash == NULL || name[0] == '/' ? 0 : (int)(slash - file) + 1;
+  snprintf(path, size, "%.*s%s", folder, file, name);
+}
+
 void vsc_pvd_free(vsc_pvd *pvd)
 {
   if (pvd == NULL) return;

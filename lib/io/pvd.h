@@ -27,6 +27,10 @@ size_t vsc_pvd_count(const vsc_pvd *pvd);                    // frames
 double vsc_pvd_time(const vsc_pvd *pvd, size_t frame);       // seconds
 const char *vsc_pvd_frame(const vsc_pvd *pvd, size_t frame); // file name, owned by the list
 
+// The path of a frame of the series read from `file`: beside it, unless its name is absolute.
+void vsc_pvd_frame_path(const char *file, const vsc_pvd *pvd, size_t frame, char *path,
+                        size_t size);
+
 void vsc_pvd_free(vsc_pvd *pvd);  // NULL is fine
 
 #endif

@@ -73,14 +73,19 @@ static size_t classical_springs(const vsc_mesh *mesh)
   return different + diagonals;
 }
 
-// Springs of the paper's elements: three axial, three angular, and the hexahedron's eight to its
-// barycentre.
+// Three axial springs and three angular ones in each frame; the paper's elements have one frame, its
+// hexahedra eight springs more to their barycentre.
 static size_t springs_of(const vsc_mesh *mesh, vsc_law law)
 {
   if (law == VSC_LAW_CLASSICAL) return classical_springs(mesh);
-  size_t count = 6 * mesh->element_count;
-  for (size_t e = 0; e < mesh->element_count && law == VSC_LAW_PAPER; e++)
-    if (mesh->kinds[e] == VSC_HEX) count += 8;
+  size_t count = 0;
+  for (size_t e = 0; e < mesh->element_count; e++) {
+    const vsc_cell kind = (vsc_cell)mesh->kinds[e];
+    if (law == VSC_LAW_PAPER)
+      count += kind == VSC_HEX ? 6 + 8 : 6;
+    else
+      count += 6 * (size_t)vsc_cell_rule_of(kind).points;
+  }
   return count;
 }
 
@@ -124,7 +129,7 @@ static vsc_status bench_mesh(const vsc_mesh *mesh, const char *what, vsc_error *
     if (rows[k].averaged && mesh->kinds[0] != VSC_TET) continue;
     status = time_step(mesh, axes, &rows[k], &seconds[k], error);
     if (status != VSC_OK) break;
-    printf("%zu masses, %zu %s,%s,%zu,%.4f,%.2f\n", mesh->node_count, mesh->element_count, what,
+    printf("\"%zu masses, %zu %s\",\"%s\",%zu,%.4f,%.2f\n", mesh->node_count, mesh->element_count, what,
            rows[k].name, springs_of(mesh, rows[k].law), 1e5 * seconds[k], seconds[k] / seconds[0]);
   }
   vsc_axes_free(axes);

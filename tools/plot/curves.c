@@ -35,6 +35,10 @@ static vsc_status find_column(const vsc_curves *curves, const vsc_signals *signa
   if (found == NULL || vsc_signals_find(signals, "time") == NULL || signals->rows == 0)
     return vsc_fail(error, VSC_INPUT, "%s/signals.csv: there is no column '%s'",
                     curves->items[k].source, curves->column);
+  if (curves->relative && found[0] == 0)
+    return vsc_fail(error, VSC_INPUT,
+                    "%s/signals.csv: column '%s' begins with 0: there is no change in percent",
+                    curves->items[k].source, curves->column);
   for (size_t r = 0; r < signals->rows; r++)
     values[r] = curves->relative ? 100 * (found[r] / found[0] - 1) : found[r];
   return VSC_OK;
@@ -46,10 +50,11 @@ static void draw_axes(const graph *g, const char *label)
   char text[32];
   cairo_set_line_width(cairo, 1);
   for (int axis = 0; axis < 2; axis++) {
-    const double step = vsc_tick_step(g->high[axis] - g->low[axis]);
-    for (double k = ceil(g->low[axis] / step - 1e-9); k * step <= g->high[axis] * (1 + 1e-9); k++) {
+    const double span = g->high[axis] - g->low[axis], step = vsc_tick_step(span);
+    const double slack = 1e-6 * span;
+    for (double k = ceil((g->low[axis] - slack) / step); k * step <= g->high[axis] + slack; k++) {
       const double at = place(g, axis, k * step);
-      snprintf(text, sizeof text, "%g", fabs(k) < 1e-9 ? 0 : k * step);
+      snprintf(text, sizeof text, "%g", k == 0 ? 0 : k * step);
       cairo_set_source_rgb(cairo, 0.88, 0.88, 0.9);
       cairo_move_to(cairo, axis == 0 ? at : LEFT, axis == 0 ? TOP : at);
       cairo_line_to(cairo, axis == 0 ? at : WIDTH - RIGHT, axis == 0 ? HEIGHT - BOTTOM : at);
@@ -102,7 +107,8 @@ static vsc_status draw_graph(const vsc_curves *curves, vsc_signals *const *signa
   cairo_set_source_rgb(g->cairo, 1, 1, 1);
   cairo_paint(g->cairo);
   for (int axis = 0; axis < 2; axis++)
-    if (!(g->high[axis] > g->low[axis])) g->high[axis] = g->low[axis] + 1;
+    if (!(g->high[axis] - g->low[axis] > 1e-12 * fmax(fabs(g->low[axis]), fabs(g->high[axis]))))
+      g->high[axis] = g->low[axis] + fmax(1, fabs(g->low[axis]));
   vsc_use_font(g->cairo, CAIRO_FONT_WEIGHT_BOLD);
   vsc_write_text(g->cairo, 24, 34, 18, VSC_INK, 0, curves->title);
   vsc_use_font(g->cairo, CAIRO_FONT_WEIGHT_NORMAL);

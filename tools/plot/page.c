@@ -2,7 +2,6 @@
 #include "tools/plot/page.h"
 
 #include <cairo.h>
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -40,8 +39,9 @@ static void draw_head(const vsc_page *page, cairo_t *cairo)
   vsc_use_font(cairo, CAIRO_FONT_WEIGHT_BOLD);
   vsc_write_text(cairo, MARGIN, 46, 27, VSC_INK, 0, page->title);
   vsc_use_font(cairo, CAIRO_FONT_WEIGHT_NORMAL);
-  snprintf(text, sizeof text, "%zu nodes, %zu tetrahedra", page->mesh->node_count,
-           page->mesh->element_count);
+  char kinds[128];
+  snprintf(text, sizeof text, "%zu nodes, %s", page->mesh->node_count,
+           vsc_mesh_kinds_text(page->mesh, kinds, sizeof kinds));
   if (first_cavity(page->signals, &rest, &least) != NULL && rest > 0) {
     const size_t used = strlen(text);
     snprintf(text + used, sizeof text - used,

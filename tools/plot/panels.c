@@ -26,13 +26,14 @@ typedef struct loaded {
 
 // ---- reading
 
-static vsc_status frame_of(const char *folder, double time, char file[2 * VSC_PATH],
+static vsc_status frame_of(const char *folder, double time, char file[2 * VSC_RESULT_PATH],
                            vsc_error *error)
 {
   vsc_results results;
   const vsc_status status = vsc_results_open(folder, &results, error);
   if (status != VSC_OK) return status;
-  vsc_results_file(&results, vsc_results_nearest(&results, time), file);
+  vsc_pvd_frame_path(results.pvd, results.series, vsc_results_nearest(&results, time), file,
+                     2 * VSC_RESULT_PATH);
   vsc_results_close(&results);
   return VSC_OK;
 }
@@ -51,16 +52,12 @@ static double length_of(const vsc_array *array, size_t tuple)
 static vsc_status from_elements(const vsc_mesh *mesh, const vsc_array *array, double *values,
                                 vsc_error *error)
 {
-  double *count;
-  if (!VSC_NEW(count, mesh->node_count)) return vsc_fail_memory(error, "a picture");
-  for (size_t e = 0; e < mesh->element_count; e++)
-    for (size_t c = mesh->start[e]; c < mesh->start[e + 1]; c++) {
-      values[mesh->corners[c]] += length_of(array, e);
-      count[mesh->corners[c]]++;
-    }
-  for (size_t i = 0; i < mesh->node_count; i++) values[i] /= fmax(count[i], 1);
-  vsc_free(count);
-  return VSC_OK;
+  double *lengths;
+  if (!VSC_NEW(lengths, mesh->element_count)) return vsc_fail_memory(error, "a picture");
+  for (size_t e = 0; e < mesh->element_count; e++) lengths[e] = length_of(array, e);
+  const vsc_status status = vsc_to_nodes(mesh, lengths, values, error);
+  vsc_free(lengths);
+  return status;
 }
 
 static vsc_status read_values(const char *file, const char *name, loaded *panel, vsc_error *error)
@@ -79,7 +76,7 @@ static vsc_status read_values(const char *file, const char *name, loaded *panel,
 static vsc_status load(const vsc_panels *panels, size_t k, loaded *panel, vsc_error *error)
 {
   static const double upwards[3] = {0, 0, 1};
-  char file[2 * VSC_PATH];
+  char file[2 * VSC_RESULT_PATH];
   struct stat facts;
   const char *source = panels->items[k].source;
   vsc_status status = VSC_OK;
@@ -120,6 +117,9 @@ static layout arrange(const vsc_panels *panels, const loaded *loads)
   }
   if (isnan(page.value_low)) page.value_low = isfinite(least) ? least : 0;
   if (isnan(page.value_high)) page.value_high = isfinite(most) ? most : page.value_low;
+  // what is constant but for rounding has no colours
+  const double size = fmax(fabs(page.value_low), fabs(page.value_high));
+  if (page.value_high - page.value_low <= 1e-12 * size) page.value_high = page.value_low;
   page.columns = panels->columns < (int)panels->count ? panels->columns : (int)panels->count;
   page.rows = ((int)panels->count + page.columns - 1) / page.columns;
   page.width = (WIDTH - 2 * MARGIN) / page.columns;

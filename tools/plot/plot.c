@@ -16,9 +16,9 @@
 typedef struct request {
   const char *folder;
   const char *polar, *title;  // instead: curves of `viscera calibrate`
-  char output[VSC_PATH];
+  char output[VSC_RESULT_PATH];
   vsc_results results;
-  char signals[VSC_PATH];  // the CSV
+  char signals[VSC_RESULT_PATH];  // the CSV
   double axis[3], from[3];
   bool from_given, whole;
   double time;  // s; NAN: where the cavity is smallest
@@ -107,12 +107,12 @@ static double most_contracted(const vsc_signals *signals)
 // Reads the frame that shall be shown into `page`, which then refers to *mesh.
 static vsc_status read_frame(const request *wish, vsc_page *page, vsc_mesh **mesh, vsc_error *error)
 {
-  char file[2 * VSC_PATH];
+  char file[2 * VSC_RESULT_PATH];
   const size_t frame = vsc_results_nearest(
       &wish->results, isnan(wish->time) ? most_contracted(page->signals) : wish->time);
   page->time = vsc_pvd_time(wish->results.series, frame);
   page->chosen = !isnan(wish->time);
-  vsc_results_file(&wish->results, frame, file);
+  vsc_pvd_frame_path(wish->results.pvd, wish->results.series, frame, file, sizeof file);
   const vsc_status status = vsc_vtk_read_mesh(file, 1, mesh, error);
   if (status != VSC_OK) return status;
   const vsc_array *displacement = vsc_arrays_find(&(*mesh)->node_data, "displacement");
@@ -160,7 +160,7 @@ static vsc_status read_option(int option, request *wish, vsc_error *error)
 {
   switch (option) {
     case 'o':
-      if (snprintf(wish->output, sizeof wish->output, "%s", optarg) < VSC_PATH - 8) return VSC_OK;
+      if (snprintf(wish->output, sizeof wish->output, "%s", optarg) < VSC_RESULT_PATH - 8) return VSC_OK;
       return vsc_fail(error, VSC_INPUT, "--output: the name is too long");
     case 't':
       return read_time(optarg, &wish->time, error);

@@ -45,7 +45,7 @@ static vsc_status find_columns(const char *csv, const vsc_signals *table, polar 
                     "%s: expected the columns plane, angle, wanted, springs, measured, as `viscera "
                     "calibrate --picture` writes them",
                     csv);
-  // the outer circle at 1, 2 or 5 times a power of ten, or a multiple of its fifth
+  // the outer circle at 1, 1.2 to 2 in fifths, or 3 and more times a power of ten
   const double power = pow(10, floor(log10(largest)));
   p->outer = power;
   for (double step = 0.2; p->outer < largest; step = p->outer / power < 2 ? 0.2 : 1)

@@ -42,7 +42,7 @@ static void print_help(void)
       "  -h, --help              this text\n\n"
       "Examples:\n"
       "  viscera plot --view -o blocks.png \"soft=classical springs\" \"stiff=our law\"\n"
-      "  viscera plot --curves tissue_volume --relative -o volume.png soft stiff");
+      "  viscera plot --curves wall_volume --relative -o volume.png soft stiff");
 }
 
 enum { TITLE = 256, ARRAY, UNIT, RANGE, TIME, FROM, COLUMNS, SPHERE, RELATIVE };
@@ -120,10 +120,11 @@ int vsc_plot_several(int argc, char **argv)
                .curves = {.title = ""},
                .output = "view.png"};
   const bool view = strcmp(argv[0], "--view") == 0;
-  if (!view && argc > 1) {
+  if (!view && argc > 1 && argv[1][0] != '-') {
     wish.curves.column = argv[1];
     argc--, argv++;
   }
+  argv[0] = "viscera: plot";  // before getopt's messages
   int index = 0;
   for (int option; (option = getopt_long(argc, argv, "o:h", options, &index)) != -1;) {
     if (option == 'h') return print_help(), VSC_OK;
@@ -137,6 +138,10 @@ int vsc_plot_several(int argc, char **argv)
   if (argc - optind < 1 || argc - optind > MOST_ITEMS) {
     fprintf(stderr, "viscera: plot: give 1 to %d results, see `viscera plot --view --help`\n",
             MOST_ITEMS);
+    return VSC_INPUT;
+  }
+  if (!view && wish.curves.column == NULL) {
+    fprintf(stderr, "viscera: plot: --curves: give a column of signals.csv\n");
     return VSC_INPUT;
   }
   read_items(&wish, argc - optind, argv + optind);

@@ -169,20 +169,31 @@ static void turn(const vsc_camera *camera, const double direction[3], double see
   seen[2] = vsc_dot(direction, camera->into);
 }
 
-// Mean of the elements' values at each node.
-static vsc_status average_to_nodes(const vsc_mesh *mesh, const double *values, vsc_vertex *nodes,
-                                   vsc_error *error)
+vsc_status vsc_to_nodes(const vsc_mesh *mesh, const double *element_values, double *node_values,
+                        vsc_error *error)
 {
   double *count;
   if (!VSC_NEW(count, mesh->node_count)) return vsc_fail_memory(error, "a picture");
+  memset(node_values, 0, mesh->node_count * sizeof *node_values);
   for (size_t e = 0; e < mesh->element_count; e++)
     for (size_t c = mesh->start[e]; c < mesh->start[e + 1]; c++) {
-      nodes[mesh->corners[c]].value += values[e];
+      node_values[mesh->corners[c]] += element_values[e];
       count[mesh->corners[c]]++;
     }
-  for (size_t i = 0; i < mesh->node_count; i++) nodes[i].value /= fmax(count[i], 1);
+  for (size_t i = 0; i < mesh->node_count; i++) node_values[i] /= fmax(count[i], 1);
   vsc_free(count);
   return VSC_OK;
+}
+
+static vsc_status colour_nodes(const vsc_mesh *mesh, const double *values, vsc_vertex *nodes,
+                               vsc_error *error)
+{
+  double *means;
+  if (!VSC_NEW(means, mesh->node_count)) return vsc_fail_memory(error, "a picture");
+  const vsc_status status = vsc_to_nodes(mesh, values, means, error);
+  for (size_t i = 0; i < mesh->node_count && status == VSC_OK; i++) nodes[i].value = means[i];
+  vsc_free(means);
+  return status;
 }
 
 static void see_nodes(scene *s, const double *displacement)
@@ -338,7 +349,7 @@ vsc_status vsc_view_draw(const vsc_camera *camera, const vsc_mesh *mesh, const d
   vsc_status status = VSC_OK;
   if (!VSC_NEW(s.nodes, mesh->node_count) || !VSC_NEW(s.distances, mesh->node_count))
     status = vsc_fail_memory(error, "a picture");
-  if (status == VSC_OK && values != NULL) status = average_to_nodes(mesh, values, s.nodes, error);
+  if (status == VSC_OK && values != NULL) status = colour_nodes(mesh, values, s.nodes, error);
   if (status == VSC_OK) {
     see_nodes(&s, displacement);
     status = draw_boundary(&s, displacement, error);

@@ -33,6 +33,10 @@ void vsc_camera_extend(const vsc_camera *camera, const vsc_mesh *mesh, const dou
 // The colour of a share (0 to 1) of the largest value: from resting tissue to dark red.
 void vsc_view_colour(double share, double colour[3]);
 
+// The mean of the elements' values at each node: node_values (node_count).
+vsc_status vsc_to_nodes(const vsc_mesh *mesh, const double *element_values, double *node_values,
+                        vsc_error *error);
+
 // Draws the mesh, moved by `displacement` (node_count x 3, mm; NULL: at rest), coloured by
 // `values` (one per element, averaged to the nodes; NULL: 0) as shares of `largest`. `low` (mm) is the
 // picture's lower left corner, `scale` its pixels per mm.
