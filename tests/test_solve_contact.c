@@ -201,8 +201,8 @@ static void a_sphere_presses(void **state)
   assert_true(sphere->work > 0);
   assert_close(table->work, 0, 0, 0);
   energy(&body, ledger, &balance);
-  print_message("balance %g of %g\n", balance, sphere->work);
-  assert_true(fabs(balance) < 0.02 * sphere->work);
+  // the step's own error; measured 9e-4
+  assert_true(fabs(balance) < 2e-3 * sphere->work);
   vsc_ledger_free(ledger);
   body_close(&body);
 }

@@ -58,7 +58,7 @@ static double worst(small_body *body)
 {
   vsc_mesh *mesh = body->mesh;
   const size_t count = 3 * mesh->node_count;
-  double *rest = vsc_alloc(count, sizeof *rest), *before, *now, most = 0;
+  double *rest = vsc_alloc(count, sizeof *rest), *before = NULL, *now = NULL, most = 0;
   assert_true(VSC_NEW(before, mesh->element_count) && VSC_NEW(now, mesh->element_count));
   for (size_t e = 0; e < mesh->element_count; e++) before[e] = vsc_mesh_element_volume(mesh, e);
   memcpy(rest, mesh->nodes, count * sizeof *rest);
