@@ -416,6 +416,45 @@ static void voxels_in_a_tet_are_all_found(void **state)
   vsc_mesh_free(mesh);
 }
 
+// A hexahedron on the grid of voxels: those on the planes between its tets, and on its faces, count once.
+static void voxels_between_tets_count_once(void **state)
+{
+  (void)state;
+  enum { SIDE = 7 };
+  static const double corners[8][3] = {{1, 1, 1}, {5, 1, 1}, {5, 5, 1}, {1, 5, 1},
+                                       {1, 1, 5}, {5, 1, 5}, {5, 5, 5}, {1, 5, 5}};
+  const uint8_t kind = VSC_HEX;
+  vsc_mesh *mesh = vsc_mesh_create_cells(8, 1, &kind, 0);
+  memcpy(mesh->nodes, corners, sizeof corners);
+  for (uint32_t c = 0; c < 8; c++) mesh->corners[c] = c;
+  vsc_image *image = vsc_image_create((size_t[3]){SIDE, SIDE, SIDE});
+  vsc_array *azimuth = vsc_arrays_add(&image->data, "azimuth", 1, SIDE * SIDE * SIDE);
+  assert_non_null(azimuth);
+  assert_non_null(vsc_arrays_add(&image->data, "elevation", 1, SIDE * SIDE * SIDE));
+  double sum[6] = {0}, axis[3], values[3];
+  for (size_t v = 0; v < SIDE * SIDE * SIDE; v++) {
+    const double angle = 2 * chance();
+    image->data.items[0].values[v] = angle;
+    const size_t at[3] = {v % SIDE, v / SIDE % SIDE, v / SIDE / SIDE};
+    bool in = true;
+    for (int a = 0; a < 3; a++) in = in && at[a] >= 1 && at[a] <= 5;
+    if (!in) continue;
+    sum[0] += cos(angle) * cos(angle);
+    sum[1] += cos(angle) * sin(angle);
+    sum[3] += sin(angle) * sin(angle);
+  }
+  assert_int_equal(vsc_top_axis(sum, axis, values), 1);
+  vsc_angle_map_def map = default_map();
+  map.scale = 1;
+  vsc_fiber_report report;
+  vsc_axes *axes = sample(mesh, image, &map, &report);
+  assert_int_equal(report.fallback, 0);
+  assert_close(report.coherence[1], (values[0] - values[1]) / values[0], 1e-12, 0);
+  vsc_axes_free(axes);
+  vsc_image_free(image);
+  vsc_mesh_free(mesh);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -428,6 +467,7 @@ int main(void)
       cmocka_unit_test(ventricle_map_comes_back),
       cmocka_unit_test(elements_without_data_are_unknown),
       cmocka_unit_test(voxels_in_a_tet_are_all_found),
+      cmocka_unit_test(voxels_between_tets_count_once),
   };
   return cmocka_run_group_tests_name("fibers/sample", tests, NULL, NULL);
 }

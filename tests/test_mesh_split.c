@@ -79,6 +79,31 @@ static void tets_fill_and_fit(void **state)
   vsc_mesh_free(mesh);
 }
 
+// A hexahedron with three corners of its bottom in line: flat tets are left out, the others fill it.
+static void flat_tets_are_left_out(void **state)
+{
+  (void)state;
+  static const double corners[8][3] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 2, 0},
+                                       {0, 0, 1}, {1, 0, 1}, {2, 0, 1}, {0, 2, 1}};
+  const uint8_t kind = VSC_HEX;
+  vsc_mesh *mesh = vsc_mesh_create_cells(8, 1, &kind, 0);
+  memcpy(mesh->nodes, corners, sizeof corners);
+  for (uint32_t c = 0; c < 8; c++) mesh->corners[c] = c;
+  uint32_t tets[VSC_MOST_TETS][4];
+  const int count = vsc_mesh_split(mesh, 0, tets);
+  double volume = 0;
+  assert_true(count < 6);
+  for (int t = 0; t < count; t++) {
+    const double *x[4];
+    for (int i = 0; i < 4; i++) x[i] = mesh->nodes + 3 * (size_t)tets[t][i];
+    const double part = vsc_tet_volume(x[0], x[1], x[2], x[3]);
+    assert_true(part > 0.1);
+    volume += part;
+  }
+  assert_close(volume, 2, 1e-14, 0);
+  vsc_mesh_free(mesh);
+}
+
 static void select_plane(const vsc_mesh *mesh, double height, vsc_surface *surface)
 {
   vsc_surface boundary;
@@ -204,6 +229,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(tets_fill_and_fit),
+      cmocka_unit_test(flat_tets_are_left_out),
       cmocka_unit_test(depth_of_a_hybrid_slab_is_linear),
       cmocka_unit_test(maps_are_sampled_on_all_kinds),
       cmocka_unit_test(filling_crosses_all_faces),
