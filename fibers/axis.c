@@ -24,6 +24,12 @@ void vsc_fiber_angles(const double fiber[3], double *azimuth, double *elevation)
 }
 
 // The sizes fit, so GSL has nothing to call its error handler for; its workspace lies on the stack.
+void vsc_add_square(const double v[3], double factor, double sum[6])
+{
+  for (int i = 0, k = 0; i < 3; i++)
+    for (int j = i; j < 3; j++) sum[k++] += factor * v[i] * v[j];
+}
+
 int vsc_top_axis(const double matrix[6], double axis[3], double values[3])
 {
   double a[9] = {matrix[0], matrix[1], matrix[2], matrix[1], matrix[3],

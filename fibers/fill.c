@@ -6,13 +6,6 @@
 #include "fibers/sample.h"
 #include "mesh/topology.h"
 
-static void add_square(const double v[3], double sum[6])
-{
-  const double square[6] = {v[0] * v[0], v[0] * v[1], v[0] * v[2],
-                            v[1] * v[1], v[1] * v[2], v[2] * v[2]};
-  for (int c = 0; c < 6; c++) sum[c] += square[c];
-}
-
 // The mean frame of the known neighbours of an element; false when it has none.
 static bool mean_of_neighbours(const vsc_axes *axes, const int32_t neighbours[VSC_MOST_FACES],
                                double frame[9])
@@ -20,8 +13,8 @@ static bool mean_of_neighbours(const vsc_axes *axes, const int32_t neighbours[VS
   double fibers[6] = {0}, sheets[6] = {0}, fiber[3], sheet[3];
   for (int i = 0; i < VSC_MOST_FACES; i++) {
     if (neighbours[i] < 0 || !axes->known[neighbours[i]]) continue;
-    add_square(&axes->frames[9 * (size_t)neighbours[i]], fibers);
-    add_square(&axes->frames[9 * (size_t)neighbours[i] + 3], sheets);
+    vsc_add_square(&axes->frames[9 * (size_t)neighbours[i]], 1, fibers);
+    vsc_add_square(&axes->frames[9 * (size_t)neighbours[i] + 3], 1, sheets);
   }
   if (!vsc_top_axis(fibers, fiber, NULL) || !vsc_top_axis(sheets, sheet, NULL)) return false;
   return vsc_axes_complete(fiber, sheet, frame) != 0;

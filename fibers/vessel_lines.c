@@ -15,13 +15,6 @@ typedef struct segment {
   bool free[2];              // no other segment goes on there
 } segment;
 
-// t t^T and so on of a symmetric 3 x 3 matrix: xx, xy, xz, yy, yz, zz.
-static void add_square(const double t[3], double factor, double matrix[6])
-{
-  for (int i = 0, k = 0; i < 3; i++)
-    for (int j = i; j < 3; j++) matrix[k++] += factor * t[i] * t[j];
-}
-
 // How deep a point lies: its distance from the segment over the radius there; above 1 outside.
 static double depth(const segment *s, const double point[3])
 {
@@ -55,7 +48,7 @@ static void visit(const vsc_vessel_walk *walk, size_t element, vsc_vessel_scratc
     all += scratch->weights[p];
     if (!(least <= 1)) continue;
     inside += scratch->weights[p];
-    add_square(nearest->along, scratch->weights[p] / nearest->square, matrix);
+    vsc_add_square(nearest->along, scratch->weights[p] / nearest->square, matrix);
   }
   if (inside == 0) return;
   walk->fraction[element] = fmin(inside / all, 1);

@@ -136,8 +136,7 @@ static void add_normals(const vsc_vessel_walk *walk, const double point[3], doub
     vsc_cross(ab, ac, n);
     const double near = 1 - from_triangle(x, n, point) / (radius * radius);
     const double area = fmin(vsc_normalize(n) / 2, radius * radius);
-    for (int a = 0, k = 0; near > 0 && a < 3; a++)
-      for (int b = a; b < 3; b++) matrix[k++] += near * area * n[a] * n[b];
+    if (near > 0) vsc_add_square(n, near * area, matrix);
   }
 }
 

@@ -28,7 +28,6 @@ static void legacy_files_are_read(void **state)
   assert_int_equal(p->point_count, 7);
   assert_int_equal(p->triangle_count, 3);
   assert_int_equal(p->segment_count, 2);
-  assert_int_equal(p->cut_polygons, 1);
   const uint32_t segments[4] = {4, 5, 5, 6};
   assert_memory_equal(p->segments, segments, sizeof segments);
   const uint32_t triangles[9] = {0, 1, 2, 0, 1, 2, 0, 2, 3};

@@ -19,11 +19,9 @@ namespace {
 
 void turn_right(const double *points, uint32_t tet[4])
 {
-  double edge[3][3], across[3];
-  for (int i = 0; i < 3; i++)
-    vsc_subtract(points + 3 * (size_t)tet[i + 1], points + 3 * (size_t)tet[0], edge[i]);
-  vsc_cross(edge[0], edge[1], across);
-  if (vsc_dot(across, edge[2]) < 0) std::swap(tet[2], tet[3]);
+  const double *x[4];
+  for (int i = 0; i < 4; i++) x[i] = points + 3 * (size_t)tet[i];
+  if (vsc_tet_volume(x[0], x[1], x[2], x[3]) < 0) std::swap(tet[2], tet[3]);
 }
 
 vsc_status delaunay(size_t count, const double *points, size_t *tet_count, uint32_t **tets,

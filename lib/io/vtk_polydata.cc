@@ -30,27 +30,22 @@ using owned_polydata = std::unique_ptr<vsc_polydata, decltype(&vsc_polydata_free
 // What the cells of a file become.
 struct pieces {
   std::vector<uint32_t> triangles, segments;
-  size_t cut_polygons = 0, cut_strips = 0, vertices = 0, flat = 0;
 
   void add_triangle(uint32_t a, uint32_t b, uint32_t c)
   {
-    if (a == b || b == c || c == a) flat++;
-    else triangles.insert(triangles.end(), {a, b, c});
+    if (a != b && b != c && c != a) triangles.insert(triangles.end(), {a, b, c});
   }
   void add_segment(uint32_t a, uint32_t b)
   {
-    if (a == b) flat++;
-    else segments.insert(segments.end(), {a, b});
+    if (a != b) segments.insert(segments.end(), {a, b});
   }
   void add_polygon(const std::vector<uint32_t> &corner)
   {
-    if (corner.size() > 3) cut_polygons++;
     for (size_t i = 2; i < corner.size(); i++) add_triangle(corner[0], corner[i - 1], corner[i]);
   }
   // Every second triangle of a strip is turned.
   void add_strip(const std::vector<uint32_t> &corner)
   {
-    cut_strips++;
     for (size_t i = 2; i < corner.size(); i++)
       add_triangle(corner[i - 2], corner[i - (i % 2 == 0 ? 1 : 0)], corner[i - (i % 2)]);
   }
@@ -113,7 +108,6 @@ vsc_status cut_cells(const char *file, vtkPolyData *data, pieces &cut, vsc_error
   if (status == VSC_OK)
     status = walk_cells(
       file, data->GetLines(), points, [&](corners c) { cut.add_line(c); }, error);
-  cut.vertices = (size_t)data->GetNumberOfVerts();
   if (status == VSC_OK && cut.triangles.empty() && cut.segments.empty())
     return vsc_fail(error, VSC_INPUT,
                     "%s: holds neither triangles nor lines (%zu points): give a surface or "
@@ -133,10 +127,6 @@ vsc_status fill_polydata(const char *file, vtkPolyData *data, const pieces &cut,
   }
   std::copy(cut.triangles.begin(), cut.triangles.end(), made->triangles);
   std::copy(cut.segments.begin(), cut.segments.end(), made->segments);
-  made->cut_polygons = cut.cut_polygons;
-  made->cut_strips = cut.cut_strips;
-  made->vertices = cut.vertices;
-  made->flat = cut.flat;
   return vsc::add_arrays(file, data->GetPointData(), made->point_count, nullptr, &made->point_data,
                          error);
 }

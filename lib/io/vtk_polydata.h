@@ -7,8 +7,8 @@
 
 // Reads polydata from .vtp or legacy .vtk, in every encoding that VTK reads. Coordinates are
 // multiplied by `unit` (mm per unit), arrays are not. Triangles are kept, larger polygons are fanned
-// from their first corner, strips split, polylines cut into segments; single points are counted and
-// left out. Every numeric point array comes along, cell arrays do not. VSC_INPUT with the file's name
+// from their first corner, strips split, polylines cut into segments; single points, and triangles and
+// segments that name a point twice, are left out. Point arrays come along, cell arrays do not. VSC_INPUT with the file's name
 // for a missing, truncated, empty or foreign file, one without triangles and lines, point numbers out
 // of range, coordinates that are not finite, and arrays of the wrong length. The caller owns
 // *polydata.

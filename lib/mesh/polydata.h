@@ -17,10 +17,6 @@ typedef struct vsc_polydata {
   size_t segment_count;
   uint32_t *segments;     // segment_count x 2, of the polylines in their order
   vsc_arrays point_data;  // on the points
-  size_t cut_polygons;    // polygons of more than three corners, fanned from their first
-  size_t cut_strips;      // triangle strips, split
-  size_t vertices;        // cells that are single points, left out
-  size_t flat;            // triangles and segments that name a point twice, left out
 } vsc_polydata;
 
 // Room for the given counts, all zero; NULL when memory is short (2^32 points are always too many).
