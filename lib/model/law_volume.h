@@ -23,6 +23,14 @@ VSC_INLINE vsc_wide vsc_volume_stress(vsc_wide K, vsc_wide J)
   return K * (0.5 * (kept - 1.0 / kept) + VSC_VOLUME_SLOPE0 * (J - kept));
 }
 
+// U''(J), kPa.
+VSC_INLINE vsc_wide vsc_volume_curvature(vsc_wide K, vsc_wide J)
+{
+  const vsc_wide J0 = vsc_splat(VSC_VOLUME_J0);
+  const vsc_wide kept = vsc_select(J > J0, J, J0);
+  return 0.5 * K * (1 + 1.0 / (kept * kept));
+}
+
 // U(J), kPa = uJ/mm^3.
 static inline double vsc_volume_energy(double K, double J)
 {
