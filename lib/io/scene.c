@@ -2,6 +2,7 @@
 #include "io/scene.h"
 
 #include <errno.h>
+#include <math.h>
 #include <string.h>
 
 #include "base/mem.h"
@@ -45,9 +46,19 @@ static vsc_scene *create_scene(const char *file)
   scene->mesh_unit = 1;
   scene->fibers = vsc_default_fiber();
   scene->definition = vsc_default_definition();
-  scene->output.frame_interval = 10;
-  scene->output.signal_interval = 1;
+  scene->output.frame_interval = scene->output.signal_interval = NAN;  // not given
   return scene;
+}
+
+// Intervals that the scene does not give: of a motion 10 and 1 ms; equilibria are found at the end
+// only, or where frames are wanted.
+static void complete_output(vsc_scene *scene)
+{
+  vsc_output_def *output = &scene->output;
+  const bool motion = scene->definition.solve.kind != VSC_SOLVE_EQUILIBRIUM;
+  if (isnan(output->frame_interval))
+    output->frame_interval = motion ? 10 : scene->definition.end_time;
+  if (isnan(output->signal_interval)) output->signal_interval = motion ? 1 : output->frame_interval;
 }
 
 static vsc_status apply_settings(vsc_reading *reading, vsc_slot *slots, const char *const *texts,
@@ -69,6 +80,7 @@ static vsc_status convert(vsc_reading *reading, const vsc_slot *slots, vsc_scene
   vsc_scene *made = create_scene(reading->file);
   if (made == NULL) return vsc_fail_memory(reading->error, "the scene");
   vsc_status status = vsc_group_convert(reading, &vsc_scene_group, slots, made);
+  if (status == VSC_OK) complete_output(made);
   if (status == VSC_OK) status = vsc_scene_check(reading, made);
   if (status == VSC_OK)
     *scene = made;

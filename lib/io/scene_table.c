@@ -17,6 +17,24 @@ static const vsc_row mesh_rows[] = {
 };
 GROUP(static, mesh, -1);
 
+// ---- how it is solved
+
+static const vsc_word solve_kinds[] = {{"explicit", VSC_SOLVE_EXPLICIT},
+                                       {"equilibrium", VSC_SOLVE_EQUILIBRIUM},
+                                       {NULL, 0}};
+static const vsc_word linear_kinds[] = {{"auto", VSC_LINEAR_AUTO},
+                                        {"direct", VSC_LINEAR_DIRECT},
+                                        {"iterative", VSC_LINEAR_ITERATIVE},
+                                        {NULL, 0}};
+
+static const vsc_row solver_rows[] = {
+    {"linear", CHOICE(vsc_definition, solve.linear, linear_kinds), .text = "auto",
+     .meaning = "systems: auto, direct (a factor, reused), iterative (little memory)"},
+    {"tolerance", NUMBER(vsc_definition, solve.tolerance), .text = "1e-6",
+     .meaning = "of the residual, as a part of the forces at work"},
+};
+GROUP(static, solver, -1);
+
 // ---- time and output
 
 static const vsc_row time_rows[] = {
@@ -40,7 +58,7 @@ static const vsc_word frame_arrays[] = {
 
 static const vsc_row output_rows[] = {
     {"frames", QUANTITY(vsc_output_def, frame_interval, VSC_TIME), .text = "10 ms",
-     .meaning = "between VTU frames"},
+     .meaning = "between VTU frames; default of equilibria: the end"},
     {"precision", CHOICE(vsc_output_def, double_precision, precisions), .text = "single",
      .meaning = "of the frames; or double"},
     {"arrays", .kind = VSC_ROW_NAMES, LIST_AT(vsc_output_def, arrays, array_count),
@@ -49,7 +67,7 @@ static const vsc_row output_rows[] = {
              "volume_ratio, region]",
      .meaning = "of the frames; []: the usual ones"},
     {"signals", QUANTITY(vsc_output_def, signal_interval, VSC_TIME), .text = "1 ms",
-     .meaning = "between rows of signals.csv"},
+     .meaning = "between rows of signals.csv; default of equilibria: as the frames"},
     {"cavities", .kind = VSC_ROW_NAMES, LIST_AT(vsc_output_def, cavities, cavity_count),
      .count = VSC_OUTPUT_ARRAYS, .text = "[endo]",
      .meaning = "surfaces whose (capped) volume is a signal"},
@@ -103,6 +121,10 @@ static const vsc_row vsc_scene_group_rows[] = {
      .text = "[0 m/s2, 0 m/s2, 0 m/s2]", .meaning = "default none"},
     {"pressures", SCENE_PARTS(pressures, pressure_count, vsc_pressure_group),
      .meaning = "that follow their surface"},
+    {"solve", CHOICE(vsc_scene, definition.solve.kind, solve_kinds), .text = "explicit",
+     .meaning = "explicit (motion), or equilibrium (forces balance, no inertia)"},
+    {"solver", PART(offsetof(vsc_scene, definition), solver), .commented = true,
+     .meaning = "solve: equilibrium: how"},
     {"time", PART(offsetof(vsc_scene, definition), time), .needed = VSC_ALWAYS,
      .meaning = "how long"},
     {"output", PART(offsetof(vsc_scene, output), output), .meaning = "what is written"},

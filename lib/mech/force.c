@@ -86,23 +86,24 @@ static size_t fill_activation(const evaluation *e, const vsc_patch *patch, vsc_w
 {
   const vsc_model *model = e->model;
   const vsc_material *material = &model->materials[patch->material];
+  const double load = e->scratch->load;
   if (material->active == VSC_ACTIVE_NONE || !vsc_patch_is_solid(patch)) {
     activation[0] = vsc_splat(0);
     return 0;
   }
   if (model->amplitude == NULL && model->delay == NULL) {
-    activation[0] = vsc_splat(vsc_model_activation(model, material, 0, e->time));
+    activation[0] = vsc_splat(load * vsc_model_activation(model, material, 0, e->time));
     return 0;
   }
   if (model->delay == NULL) {
-    const double value = vsc_curve_value(&material->curve, e->time - material->delay);
+    const double value = load * vsc_curve_value(&material->curve, e->time - material->delay);
     const vsc_wide *amplitude = (const vsc_wide *)model->amplitude + patch->first_pack;
     for (uint32_t k = 0; k < patch->pack_count; k++) activation[k] = value * amplitude[k];
     return 1;
   }
   for (uint32_t k = 0; k < patch->pack_count; k++)
     for (int l = 0; l < VSC_WIDTH; l++)
-      activation[k][l] = vsc_model_activation(
+      activation[k][l] = load * vsc_model_activation(
           model, material, VSC_WIDTH * (size_t)(patch->first_pack + k) + l, e->time);
   return 1;
 }
@@ -240,17 +241,34 @@ void vsc_force(const vsc_model *model, const double *x, const double *w, double 
   const size_t shared_nodes = model->node_count - model->own_node_count;
   vsc_parallel_for((shared_nodes + NODES_PER_PIECE - 1) / NODES_PER_PIECE, sum_shared, &e);
   for (size_t p = 0; p < model->pressure_count; p++) {
-    const double pressure = vsc_model_pressure(model, p, time);
+    const double pressure = scratch->load * vsc_model_pressure(model, p, time);
     if (pressure != 0) add_pressure(&model->pressures[p], pressure, x, force);
   }
   if (terms->gravity)
-    for (size_t i = 0; i < 4 * model->node_count; i++) force[i] += model->weight[i];
+    for (size_t i = 0; i < 4 * model->node_count; i++) force[i] += scratch->load * model->weight[i];
+}
+
+vsc_patch_work vsc_patch_prepare(const vsc_model *model, const vsc_patch *patch, const double *x,
+                                 const double *w, double time, vsc_scratch *scratch, int thread)
+{
+  const evaluation e = {model, x, w, time, scratch, NULL};
+  const local_arrays local = local_of(&e, thread);
+  vsc_kernel_choice choice;
+  vsc_patch_work work = prepare(&e, patch, &local, &choice);
+  work.shares_volume = choice.nodal_volume;
+  if (!choice.damping) work.w = NULL;
+  return work;
+}
+
+void vsc_group_volumes(const vsc_model *model, const double *x, vsc_scratch *scratch)
+{
+  evaluation e = {model, x, NULL, 0, scratch, NULL};
+  vsc_parallel_for(model->patch_count, patch_volume, &e);
 }
 
 void vsc_group_ratios(const vsc_model *model, const double *x, vsc_scratch *scratch, double *ratio)
 {
-  evaluation e = {model, x, NULL, 0, scratch, NULL};
-  vsc_parallel_for(model->patch_count, patch_volume, &e);
+  vsc_group_volumes(model, x, scratch);
   for (size_t n = 0; n < model->node_count; n++)
     ratio[n] = group_volume(model, scratch, (uint32_t)n) / model->group_volume[n];
 }

@@ -3,6 +3,7 @@
 #ifndef VSC_MECH_FORCE_H
 #define VSC_MECH_FORCE_H
 
+#include "mech/kernel.h"
 #include "mech/state.h"
 
 // force = sum of element forces, pressures and weight at positions `x`, velocities `w` (both
@@ -14,5 +15,14 @@ void vsc_force(const vsc_model *model, const double *x, const double *w, double 
 
 // J of each node's volume group at `x`, into `ratio` (node_count). With node-averaged volume only.
 void vsc_group_ratios(const vsc_model *model, const double *x, vsc_scratch *scratch, double *ratio);
+
+// The deformed volumes of the nodes' groups at `x`, into the scratch, where vsc_patch_prepare finds
+// them.
+void vsc_group_volumes(const vsc_model *model, const double *x, vsc_scratch *scratch);
+
+// A patch of cells with what its kernels read gathered into the scratch of `thread`; x, w, time as
+// for vsc_force. Good until the next call with that thread.
+vsc_patch_work vsc_patch_prepare(const vsc_model *model, const vsc_patch *patch, const double *x,
+                                 const double *w, double time, vsc_scratch *scratch, int thread);
 
 #endif

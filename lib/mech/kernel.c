@@ -40,6 +40,11 @@ vsc_patch_kernel *vsc_volume_kernel(void)
   return kernels()->volume;
 }
 
+vsc_tangent_kernel *vsc_cell_tangent(uint32_t family)
+{
+  return kernels()->tangents[family];
+}
+
 const char *vsc_kernel_set(void)
 {
   return kernels()->name;

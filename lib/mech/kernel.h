@@ -24,11 +24,18 @@ typedef struct vsc_patch_work {
   const vsc_wide
       *activation;  // of each pack, or of all when activation_stride is 0; used when active
   size_t activation_stride;
+  // tangents only: what of -df/dx and of -df/dw goes into them, and whether the pressures of nodes count
+  double stiffness_factor, damping_factor;
+  bool shares_volume;
   double *f;       // forces, mN: added to
   double *volume;  // quarter volumes, mm^3: added to, by the volume pass
 } vsc_patch_work;
 
 typedef void vsc_patch_kernel(const vsc_patch_work *work);
+
+// The matrices of the four elements of pack k: block (i, j) of corners i >= j, row by row, at
+// K + 9 (i (i + 1)/2 + j); mN/mm. `work->w` is NULL where nothing is damped.
+typedef void vsc_tangent_kernel(const vsc_patch_work *work, size_t k, vsc_wide *K);
 
 // Which kernel a patch needs.
 typedef struct vsc_kernel_choice {
@@ -46,6 +53,9 @@ vsc_patch_kernel *vsc_force_kernel(const vsc_kernel_choice *choice);
 
 // The kernel that adds a quarter of each tet's deformed volume to its nodes' `volume`.
 vsc_patch_kernel *vsc_volume_kernel(void);
+
+// The tangent of a family of cells under laws that are functions of strain (model/law.h).
+vsc_tangent_kernel *vsc_cell_tangent(uint32_t family);
 
 // The name of the instruction set in use: "AVX2" or "baseline".
 const char *vsc_kernel_set(void);

@@ -11,6 +11,7 @@
 #include "mech/kernel_paper.h"
 #include "mech/kernel_solid.h"
 #include "mech/kernel_surface.h"
+#include "mech/kernel_tangent.h"
 
 #define FORCE_KERNEL(composed, damping, active, nodal)                             \
   static void force_##composed##damping##active##nodal(const vsc_patch_work *work) \
@@ -50,4 +51,5 @@ const vsc_kernels KERNEL_SET = {
     .triangles = {force_triangles, force_damped_triangles},
     .bends = {force_bends, force_damped_bends},
     .volume = volume_kernel,
+    .tangents = {tangent_tets, tangent_hexes, tangent_wedges, tangent_pyramids},
 };

@@ -15,6 +15,7 @@ typedef struct vsc_kernels {
   vsc_patch_kernel *triangles[2];        // [damping]
   vsc_patch_kernel *bends[2];            // [damping]
   vsc_patch_kernel *volume;
+  vsc_tangent_kernel *tangents[VSC_CELLS];
 } vsc_kernels;
 
 extern const vsc_kernels vsc_kernels_baseline;  // whatever the compiler's default is

@@ -12,6 +12,7 @@ static bool allocate(const vsc_model *model, vsc_state *state)
 {
   const size_t n = model->node_count;
   vsc_scratch *scratch = &state->scratch;
+  scratch->load = 1;
   scratch->threads = vsc_parallel_threads();
   // positions, velocities and forces of a patch's nodes, their pressures, the activation of its
   // packs
@@ -60,6 +61,7 @@ void vsc_state_free(vsc_state *state)
   vsc_free(state->pending);
   vsc_free(state->kept_pressure);
   if (state->keeper != NULL) state->release_keeper(state->keeper);
+  if (state->solver != NULL) state->release_solver(state->solver);
   vsc_free(state->limit.mode);
   vsc_free(state->scratch.local);
   vsc_free(state->scratch.partial);

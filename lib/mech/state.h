@@ -22,6 +22,8 @@ typedef struct vsc_limit {
 
 // Memory of the computation, rewritten at each use.
 typedef struct vsc_scratch {
+  double load;    // part of all loads and of all activity that counts: 1, but while they come up
+                  // on the way to a first equilibrium
   double *local;  // threads x local_size: the nodes and forces of one patch
   size_t local_size;
   int threads;
@@ -59,6 +61,8 @@ typedef struct vsc_state {
   double *kept_pressure;  // kept.count: multiplier of each kept volume in the last step, kPa; owned
   void *keeper;           // what keeps them (solve/keep_volume.c), made when first needed
   void (*release_keeper)(void *keeper);
+  void *solver;           // memory of the method (solve/solve.c), made when it starts
+  void (*release_solver)(void *solver);
   vsc_limit limit;
   vsc_scratch scratch;
 } vsc_state;

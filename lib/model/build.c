@@ -200,7 +200,8 @@ static void hash_model(vsc_model *model)
   hash = vsc_hash(hash, model->pairs, model->pair_count * sizeof *model->pairs);
   hash = vsc_hash(hash, model->gravity, sizeof model->gravity);
   hash = vsc_hash(hash, &model->step, sizeof model->step);
-  model->hash = vsc_hash(hash, &model->safety, sizeof model->safety);
+  hash = vsc_hash(hash, &model->safety, sizeof model->safety);
+  model->hash = vsc_hash(hash, &model->solve, sizeof model->solve);
 }
 
 static vsc_status check_fibres(const vsc_model *model, vsc_error *error)
@@ -291,6 +292,7 @@ static vsc_status build(const vsc_mesh *mesh, const vsc_axes *axes,
   model->step = definition->step;
   model->force_step = definition->force_step;
   model->safety = definition->safety;
+  model->solve = definition->solve;
   vsc_status status = assign_materials(mesh, definition, material_of, error);
   if (status == VSC_OK) status = build_materials(definition, model, error);
   if (status == VSC_OK) status = vsc_terms_selections(mesh, definition, model, error);

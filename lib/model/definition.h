@@ -199,6 +199,26 @@ typedef struct vsc_pressure_def {
   vsc_curve_def curve;
 } vsc_pressure_def;
 
+// How a state is moved on in time.
+typedef enum vsc_solve_kind {
+  VSC_SOLVE_EXPLICIT,     // Stoermer-Verlet (default)
+  VSC_SOLVE_EQUILIBRIUM,  // forces balance at each time that is written; no inertia, no damping
+} vsc_solve_kind;
+
+// How Newton's method solves its linear systems.
+typedef enum vsc_linear_kind {
+  VSC_LINEAR_AUTO,       // diagonal blocks until a factorisation would have been cheaper (default)
+  VSC_LINEAR_DIRECT,     // a Cholesky factor, made anew when the former one has become a bad
+                         // preconditioner
+  VSC_LINEAR_ITERATIVE,  // conjugate gradients with diagonal blocks only: little memory
+} vsc_linear_kind;
+
+typedef struct vsc_solve_def {
+  vsc_solve_kind kind;
+  vsc_linear_kind linear;
+  double tolerance;  // of the residual, as a part of the forces at work; default 1e-6
+} vsc_solve_def;
+
 typedef struct vsc_definition {
   char region_array[VSC_NAME];  // cell array of region numbers; empty: one region, 0
   size_t material_count;
@@ -225,6 +245,7 @@ typedef struct vsc_definition {
   double step;                  // ms; 0: from the stable step; default 0
   bool force_step;              // takes `step` even when it is above the stable one; default false
   double safety;                // fraction of the estimated stable step that is taken; default 0.8
+  vsc_solve_def solve;
 } vsc_definition;
 
 // The documented defaults.

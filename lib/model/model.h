@@ -251,6 +251,7 @@ typedef struct vsc_model {
   double step;         // ms asked for by the user, or 0
   bool force_step;     // taken even above the stable step
   double safety;
+  vsc_solve_def solve;
   double total_mass;    // mg
   double total_volume;  // mm^3
   uint64_t hash;        // of everything above: two models with equal hashes move alike

@@ -12,6 +12,7 @@
 #include "mesh/quality.h"
 #include "mesh/surface.h"
 #include "solve/explicit.h"
+#include "solve/solve.h"
 
 static const char *const source_names[] = {"none",       "map",        "arrays",   "constant",
                                            "helix",      "horizontal", "diagonal", "hemicircular",

@@ -9,7 +9,7 @@
 
 #include "base/mem.h"
 #include "run/job.h"
-#include "solve/explicit.h"
+#include "solve/solve.h"
 
 #define LONGEST_LOOK 1.0  // ms between two looks of the energy ledger
 #define CLOSER 16         // looks in place of one that did not balance
@@ -132,11 +132,14 @@ static vsc_status start(vsc_job *job, vsc_error *error)
   if (status == VSC_OK) status = vsc_job_make_good(job, error);
   if (status != VSC_OK) return status;
   if (job->options->resume) {
-    status = resume(job, error);
+    if (problem->model->solve.kind != VSC_SOLVE_EXPLICIT)
+      status = vsc_in_scene(problem->scene->file,
+                            vsc_solve_start(problem->model, job->state, error), error);
+    if (status == VSC_OK) status = resume(job, error);
     if (status == VSC_OK) vsc_job_keep_good(job);
     return status;
   }
-  status = vsc_in_scene(problem->scene->file, vsc_start(problem->model, job->state, error), error);
+  status = vsc_in_scene(problem->scene->file, vsc_solve_start(problem->model, job->state, error), error);
   if (status == VSC_OK) status = open_files(job, error);
   if (status == VSC_OK) status = open_watch(job, -1, error);
   if (status == VSC_OK) status = observe(job, error);
@@ -163,7 +166,7 @@ static bool is_event(double before, double now, double interval, double end)
 
 static vsc_status go_to(vsc_job *job, double time, vsc_error *error)
 {
-  const vsc_status status = vsc_advance(job->problem->model, job->state, time, error);
+  const vsc_status status = vsc_solve_to(job->problem->model, job->state, time, error);
   return status == VSC_OK ? observe(job, error) : status;
 }
 
@@ -173,7 +176,9 @@ static vsc_status go_to(vsc_job *job, double time, vsc_error *error)
 static vsc_status go_to_look(vsc_job *job, double time, vsc_error *error)
 {
   const vsc_status status = go_to(job, time, error);
-  if (status != VSC_NUMERICAL || job->state->time < time) return status;
+  if (status != VSC_NUMERICAL || job->state->time < time ||
+      job->problem->model->solve.kind != VSC_SOLVE_EXPLICIT)
+    return status;
   vsc_job_go_back(job);
   vsc_watch_resume(job->problem, job->state, job->watch);
   const double start = job->state->time;
@@ -193,7 +198,9 @@ static vsc_status advance(vsc_job *job, double stop, vsc_error *error)
   vsc_state *state = job->state;
   vsc_status status = VSC_OK;
   // the ledger wants a look at least every LONGEST_LOOK, however rare the rows are
-  const double look = output->signal_interval / ceil(output->signal_interval / LONGEST_LOOK);
+  const bool motion = job->problem->model->solve.kind == VSC_SOLVE_EXPLICIT;
+  const double look =
+      output->signal_interval / (motion ? ceil(output->signal_interval / LONGEST_LOOK) : 1);
   while (state->time < stop * (1 - SAME_TIME) && status == VSC_OK) {
     const double before = state->time;
     double next = next_event(before, look, end);

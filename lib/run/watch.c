@@ -223,7 +223,8 @@ static vsc_status check_balance(const vsc_model *model, const vsc_state *state, 
   for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++)
     watch->energy_scale = fmax(watch->energy_scale, sizes[k]);
   // law PAPER makes energy, and a forced step is the user's own risk
-  const bool may_jump = ledger->calls <= 1 || model->terms.paper || model->force_step;
+  // equilibria store work along ways that the ledger does not see
+  const bool may_jump = ledger->calls <= 1 || model->solve.kind != VSC_SOLVE_EXPLICIT || model->terms.paper || model->force_step;
   if (isfinite(error_now) && (may_jump || jump <= 0.05 * watch->energy_scale)) return VSC_OK;
   return vsc_fail(
       error, VSC_NUMERICAL,

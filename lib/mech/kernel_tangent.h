@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The tangent of four cells of one family: K_ij = -df_i/dx_j, with what velocities add. Internal to mech;
+// included by kernel_body.h.
+#ifndef VSC_MECH_KERNEL_TANGENT_H
+#define VSC_MECH_KERNEL_TANGENT_H
+
+#include "mech/kernel_common.h"
+#include "mech/kernel_solid.h"
+#include "mech/kernel_tets.h"
+#include "model/law.h"
+
+// One frame of four cells, ready for its tangent.
+typedef struct tangent_frame {
+  vsc_wide3 g[3], cofactor[3];
+  vsc_wide B[3][VSC_MOST_CORNERS];       // B_ai
+  vsc_wide3 c[VSC_MOST_CORNERS];         // c_i = sum_a cof_a B_ai: the gradient of J
+  vsc_wide3 strain[VSC_MOST_CORNERS][6]; // de_k/dx_i
+  vsc_wide J;
+} tangent_frame;
+
+VSC_INLINE void open_frame(const vsc_frame *frame, const double (*D)[VSC_MOST_CORNERS], int corners,
+                           const vsc_wide3 g[3], tangent_frame *out)
+{
+  for (int a = 0; a < 3; a++) out->g[a] = g[a];
+  out->J = cofactor_of(g, out->cofactor);
+  for (int i = 0; i < corners; i++) {
+    for (int a = 0; a < 3; a++)
+      out->B[a][i] =
+          frame->T[a][0] * D[0][i] + frame->T[a][1] * D[1][i] + frame->T[a][2] * D[2][i];
+    out->c[i] = vsc_wide_combine(out->B[0][i], out->cofactor[0], out->B[1][i], out->cofactor[1],
+                                 out->B[2][i], out->cofactor[2]);
+    for (int a = 0; a < 3; a++) {
+      const int b = (a + 1) % 3;
+      out->strain[i][a] = vsc_wide_scale(out->B[a][i], g[a]);
+      out->strain[i][3 + a] =
+          vsc_wide_add(vsc_wide_scale(out->B[a][i], g[b]), vsc_wide_scale(out->B[b][i], g[a]));
+    }
+  }
+}
+
+// Viscous stress S = D_v de/dt with the diagonal of D_v: eta_a/n_a^2 of the axial dampers.
+VSC_INLINE void viscous_diagonal(const vsc_mixture *moduli, const vsc_wide e[6], vsc_wide diagonal[6])
+{
+  const vsc_wide shortest = vsc_splat(VSC_SHORTEST_AXIS * VSC_SHORTEST_AXIS);
+  for (int a = 0; a < 3; a++) {
+    const vsc_wide square = 1 + 2 * e[a];
+    diagonal[a] = moduli->damping[a] / vsc_select(square > shortest, square, shortest);
+    diagonal[3 + a] = vsc_splat(0);
+  }
+}
+
+// S and D of the frame, both as the system weighs them: stiffness_factor for positions,
+// damping_factor for velocities.
+VSC_INLINE void weigh_answer(const vsc_patch_work *work, const vsc_law_input *in, const vsc_wide3 g[3],
+                             const vsc_wide3 *rate, vsc_law_answer *answer)
+{
+  vsc_wide e[6];
+  vsc_strain_of(g, e);
+  vsc_law_evaluate(in, e, VSC_LAW_TANGENT, answer);
+  vsc_wide viscous[6];
+  if (rate != NULL) {
+    viscous_diagonal(&in->moduli, e, viscous);
+    for (int a = 0; a < 3; a++) {
+      const int b = (a + 1) % 3;
+      answer->S[a] += viscous[a] * vsc_wide_dot(g[a], rate[a]);
+      answer->S[3 + a] +=
+          viscous[3 + a] * (vsc_wide_dot(g[a], rate[b]) + vsc_wide_dot(g[b], rate[a]));
+    }
+  }
+  for (int k = 0; k < 6; k++) {
+    answer->S[k] *= work->stiffness_factor;
+    for (int l = 0; l < 6; l++) answer->D[k][l] *= work->stiffness_factor;
+    if (rate != NULL) answer->D[k][k] += work->damping_factor * viscous[k];
+  }
+}
+
+// K += c_i (x) curvature c_j
+VSC_INLINE void add_outer(vsc_wide3 left, vsc_wide3 right, vsc_wide K[9])
+{
+  const vsc_wide l[3] = {left.x, left.y, left.z};
+  for (int r = 0; r < 3; r++) {
+    K[3 * r] += l[r] * right.x;
+    K[3 * r + 1] += l[r] * right.y;
+    K[3 * r + 2] += l[r] * right.z;
+  }
+}
+
+// K += [w]x
+VSC_INLINE void add_turn(vsc_wide3 w, vsc_wide K[9])
+{
+  K[1] -= w.z;
+  K[2] += w.y;
+  K[3] += w.z;
+  K[5] -= w.x;
+  K[6] -= w.y;
+  K[7] += w.x;
+}
+
+// K_ij += V [ sum_ab B_ai S_ab B_bj 1 + (de/dx_i)^T D (de/dx_j) + p [w_ij]x + U'' c_i c_j^T ],
+// w_ij = sum_c g_c (B_{c-1,i} B_{c+1,j} - B_{c+1,i} B_{c-1,j})
+VSC_INLINE void add_frame_tangent(const tangent_frame *f, const vsc_law_answer *answer, vsc_wide V,
+                                  vsc_wide pressure, vsc_wide curvature, int corners, vsc_wide *K)
+{
+  const vsc_wide p = V * pressure, bulk = V * curvature;
+  for (int j = 0; j < corners; j++) {
+    vsc_wide3 stress[6];  // D de/dx_j
+    vsc_wide pull[3];     // sum_b S_ab B_bj
+    for (int k = 0; k < 6; k++) {
+      stress[k] = wide_zero();
+      for (int l = 0; l < 6; l++)
+        stress[k] = vsc_wide_add(stress[k], vsc_wide_scale(V * answer->D[k][l], f->strain[j][l]));
+    }
+    for (int a = 0; a < 3; a++)
+      pull[a] = V * (answer->S[a] * f->B[a][j] + answer->S[3 + a] * f->B[(a + 1) % 3][j] +
+                     answer->S[3 + (a + 2) % 3] * f->B[(a + 2) % 3][j]);
+    const vsc_wide3 squeeze = vsc_wide_scale(bulk, f->c[j]);
+    for (int i = j; i < corners; i++) {
+      vsc_wide *block = K + 9 * (i * (i + 1) / 2 + j);
+      for (int k = 0; k < 6; k++) add_outer(f->strain[i][k], stress[k], block);
+      add_outer(f->c[i], squeeze, block);
+      const vsc_wide level = f->B[0][i] * pull[0] + f->B[1][i] * pull[1] + f->B[2][i] * pull[2];
+      for (int r = 0; r < 3; r++) block[4 * r] += level;
+      vsc_wide turn[3];
+      for (int c = 0; c < 3; c++)
+        turn[c] = p * (f->B[(c + 2) % 3][i] * f->B[(c + 1) % 3][j] -
+                       f->B[(c + 1) % 3][i] * f->B[(c + 2) % 3][j]);
+      add_turn(vsc_wide_combine(turn[0], f->g[0], turn[1], f->g[1], turn[2], f->g[2]), block);
+    }
+  }
+}
+
+// The pressure that all frames of four cells share, and what J's gradient is multiplied by: U' and
+// U''/V of the cell's mean volume ratio; of a tet that shares its volume with others its nodes' mean.
+typedef struct shared_volume {
+  vsc_wide pressure, curvature;
+} shared_volume;
+
+VSC_INLINE shared_volume share_volume(const vsc_patch_work *work, const vsc_frame *frames,
+                                      const uint16_t (*node)[VSC_WIDTH], int corners, int points,
+                                      const vsc_mixture *moduli, vsc_wide3 (*h)[3],
+                                      vsc_wide3 (*g)[3])
+{
+  shared_volume shared = {vsc_splat(0), vsc_splat(0)};
+  if (corners == 4) {
+    solid_axes(&frames[0], h[0], g[0]);
+    if (!work->shares_volume) return shared;
+    for (int c = 0; c < 4; c++)
+      for (int l = 0; l < VSC_WIDTH; l++) shared.pressure[l] += 0.25 * work->pressure[node[c][l]];
+    return shared;
+  }
+  vsc_wide volume = vsc_splat(0), rest = vsc_splat(0);
+  for (int q = 0; q < points; q++) {
+    solid_axes(&frames[q], h[q], g[q]);
+    volume += frames[q].V * vsc_wide_dot(g[q][0], vsc_wide_cross(g[q][1], g[q][2]));
+    rest += frames[q].V;
+  }
+  const vsc_wide_mask full = rest > 0;
+  const vsc_wide whole = vsc_select(full, rest, vsc_splat(1));
+  const vsc_wide J = vsc_select(full, volume, vsc_splat(1)) / whole;
+  shared.pressure = vsc_volume_stress(moduli->volume_modulus, J);
+  shared.curvature = vsc_volume_curvature(moduli->volume_modulus, J) / whole;
+  return shared;
+}
+
+VSC_INLINE void tangent_kernel(const vsc_patch_work *work, size_t k, int corners, int points,
+                               vsc_wide *K)
+{
+  const size_t bytes = vsc_pack_bytes(corners, points);
+  const vsc_frame *frames = (const vsc_frame *)((const char *)work->packs + k * bytes);
+  const uint16_t(*node)[VSC_WIDTH] = (const uint16_t(*)[VSC_WIDTH])(frames + points);
+  const vsc_law_input in = {.material = work->material,
+                            .axes = work->axes,
+                            .pairs = work->pairs,
+                            .moduli = moduli_of(work, k, true),
+                            .activation = work->activation[k * work->activation_stride]};
+  vsc_wide3 x[VSC_MOST_CORNERS], h[VSC_MOST_POINTS][3], g[VSC_MOST_POINTS][3];
+  vsc_wide3 speed[VSC_MOST_POINTS][3], b[VSC_MOST_CORNERS];
+  for (int c = 0; c < corners; c++) x[c] = gather_corner(node[c], work->x);
+  derivatives(work->rule, corners, points, x, h);
+  if (work->w != NULL) {
+    for (int c = 0; c < corners; c++) x[c] = gather_corner(node[c], work->w);
+    derivatives(work->rule, corners, points, x, speed);
+  }
+  const shared_volume shared =
+      share_volume(work, frames, node, corners, points, &in.moduli, h, g);
+  // a tet's own volume modulus, or that of each frame beside the shared volume
+  const vsc_wide own = corners == 4 ? in.moduli.element_modulus : in.moduli.stabilization;
+  for (int i = 0; i < 9 * corners * (corners + 1) / 2; i++) K[i] = vsc_splat(0);
+  for (int c = 0; c < corners; c++) b[c] = wide_zero();
+  for (int q = 0; q < points; q++) {
+    tangent_frame frame;
+    vsc_law_answer answer;
+    vsc_wide3 rate[3];
+    if (work->w != NULL) solid_axes(&frames[q], speed[q], rate);
+    open_frame(&frames[q], work->rule->D[q], corners, g[q], &frame);
+    weigh_answer(work, &in, g[q], work->w != NULL ? rate : NULL, &answer);
+    const vsc_wide p = shared.pressure + vsc_volume_stress(own, frame.J);
+    add_frame_tangent(&frame, &answer, frames[q].V, work->stiffness_factor * p,
+                      work->stiffness_factor * vsc_volume_curvature(own, frame.J), corners, K);
+    for (int c = 0; c < corners; c++)
+      b[c] = vsc_wide_add(b[c], vsc_wide_scale(frames[q].V, frame.c[c]));
+  }
+  if (corners == 4) return;
+  for (int j = 0; j < corners; j++) {
+    const vsc_wide3 right = vsc_wide_scale(work->stiffness_factor * shared.curvature, b[j]);
+    for (int i = j; i < corners; i++) add_outer(b[i], right, K + 9 * (i * (i + 1) / 2 + j));
+  }
+}
+
+#define TANGENT_KERNEL(name, corners, points)                                      \
+  static void tangent_##name(const vsc_patch_work *work, size_t k, vsc_wide *K)    \
+  {                                                                                \
+    tangent_kernel(work, k, corners, points, K);                                   \
+  }
+TANGENT_KERNEL(tets, 4, 1)
+TANGENT_KERNEL(hexes, 8, 8)
+TANGENT_KERNEL(wedges, 6, 6)
+TANGENT_KERNEL(pyramids, 5, 8)
+
+#endif

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/equilibrium.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "mech/force.h"
+
+#define LONGER 1.6    // after an increment of at most QUICK iterations
+#define SHORTER 0.4   // after one that failed
+#define SHORTEST 2.5e-4
+enum { QUICK = 5 };
+
+typedef struct statics {
+  const vsc_model *model;
+  vsc_state *state;
+  double time;
+} statics;
+
+static void residual(void *context, const double *x, double *r)
+{
+  statics *s = context;
+  vsc_force(s->model, x, NULL, s->time, &s->state->scratch, r);
+}
+
+static void assemble(void *context, const double *x, vsc_tangent *tangent)
+{
+  statics *s = context;
+  vsc_tangent_assemble(s->model, tangent, x, NULL, s->time, 1, 0, &s->state->scratch);
+}
+
+static void release(void *solver)
+{
+  vsc_newton_free(solver);
+}
+
+vsc_status vsc_equilibrium_start(const vsc_model *model, vsc_state *state, vsc_error *error)
+{
+  vsc_newton *newton;
+  const vsc_status status = vsc_newton_create(model, &newton, error);
+  if (status != VSC_OK) return status;
+  state->solver = newton;
+  state->release_solver = release;
+  return VSC_OK;
+}
+
+// Where the last increment's velocity leads in dt, unless that turns an element inside out.
+static void guess(const vsc_model *model, vsc_state *state, double dt, double *x)
+{
+  uint32_t element;
+  for (size_t i = 0; i < 4 * model->node_count; i++)
+    x[i] = state->x[i] + (model->inverse_mass[i] != 0 ? dt * state->v[i] : 0);
+  if (vsc_smallest_ratio(model, x, &element) <= 0)
+    memcpy(x, state->x, 4 * model->node_count * sizeof *x);
+}
+
+vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double until,
+                              vsc_error *error)
+{
+  vsc_newton *newton = state->solver;
+  const double start = state->time, way = until - start, load0 = state->steps > 0 ? 1 : 0;
+  double *x = state->scratch.trial;
+  double done = 0, increment = 1;
+  // what follows must not depend on what a restart would not have
+  vsc_linear_forget(newton->linear);
+  while (done < 1) {
+    const double next = done + increment > 1 - SHORTEST ? 1 : done + increment;
+    statics s = {model, state, start + next * way};
+    const vsc_balance balance = {&s, residual, assemble};
+    state->scratch.load = load0 + next * (1 - load0);
+    guess(model, state, (next - done) * way, x);
+    int iterations;
+    const vsc_status status = vsc_newton_solve(newton, &balance, s.time, state->scratch.load, x,
+                                               &iterations, error);
+    if (status == VSC_OK) {
+      const double dt = (next - done) * way;
+      for (size_t i = 0; i < 4 * model->node_count; i++) {
+        state->v[i] = (x[i] - state->x[i]) / dt;
+        state->x[i] = x[i];
+      }
+      state->time = next == 1 ? until : s.time;
+      done = next;
+      increment *= iterations <= QUICK ? LONGER : 1;
+      continue;
+    }
+    increment = (next - done) * SHORTER;
+    if (status != VSC_NUMERICAL || increment < SHORTEST) return status;
+  }
+  state->steps++;
+  return VSC_OK;
+}

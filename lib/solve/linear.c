@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/linear.h"
+
+#include <math.h>
+#include <string.h>
+#include <suitesparse/cholmod.h>
+
+#include "base/mem.h"
+
+// With a factor of a former matrix more iterations than this cost more than a new one.
+enum { STALE = 40, LEAST_BUDGET = 100, MOST_PLAIN = 5000 };
+// A factorisation of n unknowns of a compact body costs about as much as n/BUDGET iterations.
+#define BUDGET 16.0
+// Volume over shear modulus from which diagonal blocks are not worth trying.
+#define STIFF_RATIO 60.0
+
+struct vsc_linear {
+  const vsc_model *model;
+  vsc_linear_kind kind;
+  cholmod_common common;
+  cholmod_sparse view;     // of the preconditioner's numbers
+  int *column, *row;       // its pattern as CHOLMOD reads it
+  cholmod_factor *factor;  // analysed when first needed
+  bool factorized;         // the factor holds numbers
+  bool fresh;              // they are those of the present matrix
+  double plain_left;       // iterations with diagonal blocks that may still be spent
+  cholmod_dense *right, *solution, *y, *e;  // memory of CHOLMOD's solution
+  double *blocks;          // node_count x 9: inverses of the diagonal blocks
+  double *r, *z, *p, *q;   // node_count x 4
+  vsc_linear_counts counts;
+};
+
+void vsc_linear_free(vsc_linear *linear)
+{
+  if (linear == NULL) return;
+  cholmod_free_factor(&linear->factor, &linear->common);
+  cholmod_free_dense(&linear->right, &linear->common);
+  cholmod_free_dense(&linear->solution, &linear->common);
+  cholmod_free_dense(&linear->y, &linear->common);
+  cholmod_free_dense(&linear->e, &linear->common);
+  cholmod_finish(&linear->common);
+  vsc_free(linear->column);
+  vsc_free(linear->row);
+  vsc_free(linear->blocks);
+  vsc_free(linear->r);
+  vsc_free(linear->z);
+  vsc_free(linear->p);
+  vsc_free(linear->q);
+  vsc_free(linear);
+}
+
+// TODO-MERGE
+static double vsc_material_shear(const vsc_material *m)
+{
+  return fmax(m->angular[0], fmax(m->angular[1], m->angular[2]));
+}
+
+// The largest ratio of volume to shear stiffness among the materials.
+static double stiffest_ratio(const vsc_model *model)
+{
+  double most = 0;
+  for (size_t m = 0; m < model->material_count; m++) {
+    const vsc_material *material = &model->materials[m];
+    const double shear = vsc_material_shear(material);
+    if (shear > 0) most = fmax(most, material->volume_modulus / shear);
+  }
+  return most;
+}
+
+vsc_status vsc_linear_create(const vsc_model *model, const vsc_tangent *tangent,
+                             vsc_linear_kind kind, vsc_linear **linear, vsc_error *error)
+{
+  vsc_linear *made;
+  (void)tangent;
+  *linear = NULL;
+  if (!VSC_NEW(made, 1)) return vsc_fail_memory(error, "the linear solver");
+  const size_t nodes = model->node_count;
+  cholmod_start(&made->common);
+  made->common.print = 0;
+  made->model = model;
+  made->kind = kind;
+  made->plain_left = fmax(3 * (double)nodes / BUDGET, LEAST_BUDGET);
+  if (stiffest_ratio(model) > STIFF_RATIO) made->plain_left = 0;
+  if (kind == VSC_LINEAR_DIRECT) made->plain_left = 0;
+  if (kind == VSC_LINEAR_ITERATIVE) made->plain_left = INFINITY;
+  if (!VSC_NEW(made->blocks, 9 * nodes) || !VSC_NEW(made->r, 4 * nodes) ||
+      !VSC_NEW(made->z, 4 * nodes) || !VSC_NEW(made->p, 4 * nodes) || !VSC_NEW(made->q, 4 * nodes)) {
+    vsc_linear_free(made);
+    return vsc_fail_memory(error, "the linear solver");
+  }
+  *linear = made;
+  return VSC_OK;
+}
+
+void vsc_linear_forget(vsc_linear *linear)
+{
+  linear->factorized = false;
+}
+
+vsc_linear_counts vsc_linear_counted(const vsc_linear *linear)
+{
+  return linear->counts;
+}
+
+// ---- the factor
+
+// A fill-reducing order of the nodes (METIS), each node's three unknowns together.
+static int *order_unknowns(vsc_linear *linear, const vsc_block_matrix *matrix)
+{
+  const size_t nodes = matrix->node_count, blocks = matrix->start[nodes];
+  cholmod_common *common = &linear->common;
+  int *order, *start = NULL, *row = NULL, *of_nodes = NULL;
+  bool good = VSC_NEW(order, 3 * nodes) && VSC_NEW(start, nodes + 1) && VSC_NEW(row, blocks) &&
+              VSC_NEW(of_nodes, nodes);
+  if (good) {
+    for (size_t n = 0; n <= nodes; n++) start[n] = (int)matrix->start[n];
+    for (size_t k = 0; k < blocks; k++) row[k] = (int)matrix->row[k];
+    cholmod_sparse graph = {.nrow = nodes, .ncol = nodes, .nzmax = blocks, .p = start, .i = row,
+                            .stype = -1, .itype = CHOLMOD_INT, .xtype = CHOLMOD_PATTERN,
+                            .dtype = CHOLMOD_DOUBLE, .sorted = 1, .packed = 1};
+    good = cholmod_metis(&graph, NULL, 0, 1, of_nodes, common);
+    for (size_t k = 0; good && k < nodes; k++)
+      for (int c = 0; c < 3; c++) order[3 * k + (size_t)c] = 3 * of_nodes[k] + c;
+  }
+  vsc_free(start);
+  vsc_free(row);
+  vsc_free(of_nodes);
+  if (good) return order;
+  vsc_free(order);
+  return NULL;
+}
+
+// The matrix as CHOLMOD sees it: lower triangle by columns; what the whole diagonal blocks have
+// above the diagonal is not read.
+static bool make_view(vsc_linear *linear, const vsc_block_matrix *matrix)
+{
+  const size_t nodes = matrix->node_count, blocks = matrix->start[nodes];
+  if (9 * blocks > INT32_MAX) return false;
+  if (!VSC_NEW(linear->column, 3 * nodes + 1) || !VSC_NEW(linear->row, 9 * blocks)) return false;
+  size_t at = 0;
+  for (size_t j = 0; j < nodes; j++)
+    for (int c = 0; c < 3; c++) {
+      linear->column[3 * j + (size_t)c] = (int)at;
+      for (size_t k = matrix->start[j]; k < matrix->start[j + 1]; k++)
+        for (int r = 0; r < 3; r++) linear->row[at++] = (int)(3 * matrix->row[k]) + r;
+    }
+  linear->column[3 * nodes] = (int)at;
+  linear->view = (cholmod_sparse){.nrow = 3 * nodes, .ncol = 3 * nodes, .nzmax = at,
+                                  .p = linear->column, .i = linear->row, .stype = -1,
+                                  .itype = CHOLMOD_INT, .xtype = CHOLMOD_REAL,
+                                  .dtype = CHOLMOD_DOUBLE, .sorted = 1, .packed = 1};
+  return true;
+}
+
+static bool analyze(vsc_linear *linear, const vsc_block_matrix *matrix)
+{
+  if (linear->factor != NULL) return true;
+  cholmod_common *common = &linear->common;
+  int *order = NULL;
+  bool good = make_view(linear, matrix) && (order = order_unknowns(linear, matrix)) != NULL;
+  if (good) {
+    common->supernodal = CHOLMOD_SUPERNODAL;
+    common->nmethods = 1;
+    common->method[0].ordering = CHOLMOD_GIVEN;
+    common->postorder = 1;
+    linear->view.x = matrix->values;
+    linear->factor = cholmod_analyze_p(&linear->view, order, NULL, 0, common);
+    linear->counts.factor_entries = common->lnz;
+    linear->counts.factor_flops = common->fl;
+    linear->right = cholmod_zeros(3 * matrix->node_count, 1, CHOLMOD_REAL, common);
+    good = linear->factor != NULL && linear->right != NULL;
+  }
+  vsc_free(order);
+  return good;
+}
+
+static vsc_status factorize(vsc_linear *linear, vsc_tangent *tangent, const double *free,
+                            const double *x, vsc_error *error)
+{
+  enum { MOST_SHIFTS = 4 };
+  cholmod_common *common = &linear->common;
+  const double largest = vsc_block_matrix_largest(&tangent->matrix, free);
+  vsc_tangent_precondition(linear->model, tangent, x);
+  vsc_block_matrix_hold(&tangent->preconditioner, free, largest);
+  if (!analyze(linear, &tangent->preconditioner))
+    return vsc_fail_memory(error, "the factor of the tangent; take linear: iterative");
+  linear->view.x = tangent->preconditioner.values;
+  double shift[2] = {0, 0};
+  linear->factorized = false;
+  for (int k = 0; k <= MOST_SHIFTS; k++) {
+    linear->counts.factorizations++;
+    const bool done = cholmod_factorize_p(&linear->view, shift, NULL, 0, linear->factor, common);
+    if (!done && common->status == CHOLMOD_OUT_OF_MEMORY)
+      return vsc_fail_memory(error, "the factor of the tangent; take linear: iterative");
+    if (done && common->status == CHOLMOD_OK) {
+      linear->factorized = linear->fresh = true;
+      return VSC_OK;
+    }
+    shift[0] = k == 0 ? 1e-4 * largest : 10 * shift[0];
+  }
+  return vsc_fail(error, VSC_NUMERICAL, "the tangent is not positive definite");
+}
+
+// ---- preconditioners: z = P^-1 r
+
+static void invert_block(const double *block, size_t stride, double inverse[9])
+{
+  const double a = block[0], b = block[1], c = block[2], d = block[stride + 1],
+               e = block[stride + 2], f = block[2 * stride + 2];
+  const double A = d * f - e * e, B = c * e - b * f, C = b * e - c * d;
+  const double determinant = a * A + b * B + c * C;
+  const double part = determinant > 0 ? 1 / determinant : 0;
+  const double rows[9] = {A, B, C, B, a * f - c * c, b * c - a * e, C, b * c - a * e, a * d - b * b};
+  for (int k = 0; k < 9; k++) inverse[k] = part * rows[k];
+}
+
+static void invert_blocks(vsc_linear *linear, const vsc_block_matrix *matrix)
+{
+  for (size_t n = 0; n < matrix->node_count; n++) {
+    size_t stride;
+    const double *block = vsc_block_at(matrix, n, matrix->start[n], &stride);
+    invert_block(block, stride, linear->blocks + 9 * n);
+  }
+}
+
+static void apply_blocks(const vsc_linear *linear)
+{
+  for (size_t n = 0; n < linear->model->node_count; n++) {
+    const double *inverse = linear->blocks + 9 * n, *r = linear->r + 4 * n;
+    for (size_t i = 0; i < 3; i++)
+      linear->z[4 * n + i] =
+          inverse[3 * i] * r[0] + inverse[3 * i + 1] * r[1] + inverse[3 * i + 2] * r[2];
+  }
+}
+
+static void apply_factor(vsc_linear *linear)
+{
+  double *right = linear->right->x;
+  for (size_t n = 0; n < linear->model->node_count; n++)
+    memcpy(right + 3 * n, linear->r + 4 * n, 3 * sizeof *right);
+  cholmod_solve2(CHOLMOD_A, linear->factor, linear->right, NULL, &linear->solution, NULL, &linear->y,
+                 &linear->e, &linear->common);
+  const double *solution = linear->solution->x;
+  for (size_t n = 0; n < linear->model->node_count; n++)
+    memcpy(linear->z + 4 * n, solution + 3 * n, 3 * sizeof *solution);
+}
+
+// ---- conjugate gradients
+
+static double product(const vsc_linear *linear, const double *a, const double *b)
+{
+  double sum = 0;
+  for (size_t n = 0; n < linear->model->node_count; n++)
+    sum += a[4 * n] * b[4 * n] + a[4 * n + 1] * b[4 * n + 1] + a[4 * n + 2] * b[4 * n + 2];
+  return sum;
+}
+
+typedef enum outcome { CONVERGED, SLOW, NEGATIVE } outcome;
+
+// Up to `most` iterations from d = 0. With negative curvature at once d is the first direction.
+static outcome iterate(vsc_linear *linear, const vsc_tangent *tangent, const double *free,
+                       const double *b, double tolerance, double most, double *d)
+{
+  const size_t count = 4 * linear->model->node_count;
+  double *r = linear->r, *z = linear->z, *p = linear->p, *q = linear->q;
+  memset(d, 0, count * sizeof *d);
+  memset(q, 0, count * sizeof *q);
+  for (size_t i = 0; i < count; i++) r[i] = free[i] == 0 ? 0 : b[i];
+  const double goal = tolerance * tolerance * product(linear, r, r);
+  double before = 0;
+  for (double k = 0; k < most; k++) {
+    if (linear->factorized)
+      apply_factor(linear);
+    else
+      apply_blocks(linear);
+    const double now = product(linear, r, z);
+    const double beta = k > 0 ? now / before : 0;
+    for (size_t i = 0; i < count; i++) p[i] = (free[i] == 0 ? 0 : z[i]) + beta * p[i];
+    vsc_tangent_times(tangent, free, p, q);
+    linear->counts.iterations++;
+    const double curvature = product(linear, p, q);
+    if (!(curvature > 0)) {
+      if (k == 0) memcpy(d, p, count * sizeof *d);
+      return NEGATIVE;
+    }
+    const double alpha = now / curvature;
+    for (size_t i = 0; i < count; i++) {
+      d[i] += alpha * p[i];
+      r[i] -= alpha * q[i];
+    }
+    if (product(linear, r, r) <= goal) return CONVERGED;
+    before = now;
+  }
+  return SLOW;
+}
+
+vsc_status vsc_linear_solve(vsc_linear *linear, vsc_tangent *tangent, const double *free,
+                            const double *x, const double *b, double tolerance, double *d,
+                            bool *indefinite, vsc_error *error)
+{
+  *indefinite = false;
+  linear->fresh = false;
+  vsc_block_matrix_hold(&tangent->matrix, free, vsc_block_matrix_largest(&tangent->matrix, free));
+  memset(linear->p, 0, 4 * linear->model->node_count * sizeof *linear->p);
+  if (!linear->factorized && linear->plain_left > 0) {
+    const double before = linear->counts.iterations;
+    invert_blocks(linear, &tangent->matrix);
+    const outcome plain = iterate(linear, tangent, free, b, tolerance,
+                                  fmin(linear->plain_left, MOST_PLAIN), d);
+    linear->plain_left -= linear->counts.iterations - before;
+    if (plain == CONVERGED) return VSC_OK;
+    if (linear->kind == VSC_LINEAR_ITERATIVE) {
+      *indefinite = plain == NEGATIVE;
+      return VSC_OK;
+    }
+  }
+  if (linear->factorized &&
+      iterate(linear, tangent, free, b, tolerance, STALE, d) == CONVERGED)
+    return VSC_OK;
+  const vsc_status status = factorize(linear, tangent, free, x, error);
+  if (status != VSC_OK) return status;
+  *indefinite = iterate(linear, tangent, free, b, tolerance, 10 * STALE, d) == NEGATIVE;
+  return VSC_OK;
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Linear systems A d = b with the tangent's symmetric matrix: conjugate gradients, preconditioned by
+// the diagonal blocks or by a Cholesky factor (CHOLMOD, supernodal) of the matrix as it was some time
+// ago. With a factor of the present matrix one iteration is the direct solution.
+#ifndef VSC_SOLVE_LINEAR_H
+#define VSC_SOLVE_LINEAR_H
+
+#include "mech/tangent.h"
+
+typedef struct vsc_linear vsc_linear;
+
+// What has been done so far.
+typedef struct vsc_linear_counts {
+  double iterations;      // of conjugate gradients
+  double factorizations;
+  double factor_entries;  // numbers in the factor; 0: none was made
+  double factor_flops;    // operations of one factorisation
+} vsc_linear_counts;
+
+// For systems with the pattern of `tangent`, which must outlive it. The caller owns *linear.
+vsc_status vsc_linear_create(const vsc_model *model, const vsc_tangent *tangent,
+                             vsc_linear_kind kind, vsc_linear **linear, vsc_error *error);
+
+void vsc_linear_free(vsc_linear *linear);  // NULL is fine
+
+// Forgets the factor, so that what follows does not depend on what was before.
+void vsc_linear_forget(vsc_linear *linear);
+
+// d with |b - A d| <= tolerance |b| for the tangent as assembled at x, unknowns with `free` 0 held at
+// 0 (all node_count x 4). VSC_NUMERICAL when A is not positive definite, even with up to 10 % of its
+// largest diagonal added, or the factor does not fit into memory. Then and otherwise *indefinite
+// tells whether a direction of negative curvature was met.
+vsc_status vsc_linear_solve(vsc_linear *linear, vsc_tangent *tangent, const double *free,
+                            const double *x, const double *b, double tolerance, double *d,
+                            bool *indefinite, vsc_error *error);
+
+vsc_linear_counts vsc_linear_counted(const vsc_linear *linear);
+
+#endif

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/newton.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "mech/element.h"
+
+enum { MOST_HALVINGS = 4 };
+// A residual that has grown by this factor since the start of a solution does not come back.
+#define DIVERGED 1e4
+
+vsc_status vsc_newton_create(const vsc_model *model, vsc_newton **newton, vsc_error *error)
+{
+  vsc_newton *made;
+  const size_t count = 4 * model->node_count;
+  *newton = NULL;
+  if (!VSC_NEW(made, 1)) return vsc_fail_memory(error, "Newton's method");
+  made->model = model;
+  vsc_status status = vsc_tangent_create(model, &made->tangent, error);
+  if (status == VSC_OK)
+    status = vsc_linear_create(model, made->tangent, model->solve.linear, &made->linear, error);
+  if (status == VSC_OK && (!VSC_NEW(made->r, count) || !VSC_NEW(made->d, count) ||
+                           !VSC_NEW(made->trial, count)))
+    status = vsc_fail_memory(error, "Newton's method");
+  if (status != VSC_OK) {
+    vsc_newton_free(made);
+    return status;
+  }
+  *newton = made;
+  return VSC_OK;
+}
+
+void vsc_newton_free(vsc_newton *newton)
+{
+  if (newton == NULL) return;
+  vsc_tangent_free(newton->tangent);
+  vsc_linear_free(newton->linear);
+  vsc_free(newton->r);
+  vsc_free(newton->d);
+  vsc_free(newton->trial);
+  vsc_free(newton->rows);
+  vsc_free(newton);
+}
+
+double vsc_smallest_ratio(const vsc_model *model, const double *x, uint32_t *element)
+{
+  double least = INFINITY;
+  for (size_t p = 0; p < model->patch_count; p++) {
+    const vsc_patch *patch = &model->patches[p];
+    if (!vsc_patch_is_solid(patch)) continue;
+    for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++)
+      for (int q = 0; q < vsc_family_frames(model, patch->family); q++) {
+        vsc_wide3 g[3];
+        vsc_pack_axes(model, patch, k, q, x, g);
+        const vsc_wide J = vsc_pack_ratio(g);
+        for (int l = 0; l < VSC_WIDTH; l++) {
+          const uint32_t e = model->mesh_element[VSC_WIDTH * k + (size_t)l];
+          if (e == VSC_NO_ELEMENT || (isfinite(J[l]) && J[l] >= least)) continue;
+          *element = e;
+          if (!isfinite(J[l])) return -INFINITY;
+          least = J[l];
+        }
+      }
+  }
+  return least;
+}
+
+// |r| over unknowns that are not held.
+static double free_norm(const vsc_model *model, const double *r)
+{
+  double sum = 0;
+  for (size_t i = 0; i < 4 * model->node_count; i++)
+    if (model->inverse_mass[i] != 0) sum += r[i] * r[i];
+  return sqrt(sum);
+}
+
+static double whole_norm(const vsc_model *model, const double *r)
+{
+  double sum = 0;
+  for (size_t n = 0; n < model->node_count; n++)
+    for (size_t i = 0; i < 3; i++) sum += r[4 * n + i] * r[4 * n + i];
+  return sqrt(sum);
+}
+
+static void write_row(vsc_newton *newton, const vsc_newton_row *row)
+{
+  if (newton->row_count == newton->row_room) {
+    const size_t room = 2 * newton->row_room + 64;
+    // a table that finds no memory stays shorter: nothing depends on it
+    if (!vsc_grow((void **)&newton->rows, newton->row_room, room, sizeof *newton->rows)) return;
+    newton->row_room = room;
+  }
+  newton->rows[newton->row_count++] = *row;
+}
+
+// x <- x + d, or half of it, a quarter ... where an element would turn inside out.
+static bool step(vsc_newton *newton, double *x, uint32_t *element)
+{
+  const size_t count = 4 * newton->model->node_count;
+  double part = 1;
+  for (int k = 0; k <= MOST_HALVINGS; k++, part /= 2) {
+    for (size_t i = 0; i < count; i++) newton->trial[i] = x[i] + part * newton->d[i];
+    if (vsc_smallest_ratio(newton->model, newton->trial, element) <= 0) continue;
+    memcpy(x, newton->trial, count * sizeof *x);
+    return true;
+  }
+  return false;
+}
+
+static vsc_status fail(vsc_error *error, const vsc_model *model, double time, const char *why)
+{
+  (void)model;
+  return vsc_fail(error, VSC_NUMERICAL, "at %.6g ms no equilibrium was found: %s", time, why);
+}
+
+vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, double time, double load,
+                            double *x, int *iterations, vsc_error *error)
+{
+  const vsc_model *model = newton->model;
+  const double tolerance = model->solve.tolerance;
+  double first = 0, before = 0, forcing = 0.1;
+  newton->solutions++;
+  newton->indefinite = false;
+  for (int k = 0; k <= VSC_MOST_NEWTON; k++) {
+    balance->residual(balance->context, x, newton->r);
+    const double norm = free_norm(model, newton->r);
+    newton->scale = fmax(newton->scale, whole_norm(model, newton->r));
+    if (k == 0) first = norm;
+    const vsc_linear_counts counts = vsc_linear_counted(newton->linear);
+    const double relative = newton->scale > 0 ? norm / newton->scale : 0;
+    vsc_newton_row row = {time, load, k, relative, 0, 0};
+    *iterations = k;
+    if (relative <= tolerance) {
+      write_row(newton, &row);
+      return VSC_OK;
+    }
+    if (!isfinite(norm) || norm > DIVERGED * fmax(first, tolerance * newton->scale) || k == VSC_MOST_NEWTON) {
+      write_row(newton, &row);
+      break;
+    }
+    if (k > 0) forcing = 0.9 * (norm / before) * (norm / before);
+    forcing = fmax(fmin(forcing, 0.1), fmax(0.3 * tolerance / relative, 1e-8));
+    before = norm;
+    balance->assemble(balance->context, x, newton->tangent);
+    const vsc_status status = vsc_linear_solve(newton->linear, newton->tangent, model->inverse_mass, x,
+                                               newton->r, forcing, newton->d, &newton->indefinite, error);
+    const vsc_linear_counts after = vsc_linear_counted(newton->linear);
+    row.linear = after.iterations - counts.iterations;
+    row.factorized = after.factorizations - counts.factorizations;
+    write_row(newton, &row);
+    newton->iterations++;
+    if (status != VSC_OK) {
+      newton->failures++;
+      return status == VSC_NUMERICAL
+                 ? fail(error, model, time, "the tangent has lost its stiffness (buckling, or too "
+                                            "large an increment)")
+                 : status;
+    }
+    uint32_t element = 0;
+    if (!step(newton, x, &element)) {
+      newton->failures++;
+      char why[80];
+      snprintf(why, sizeof why, "element %u would turn inside out", element);
+      return fail(error, model, time, why);
+    }
+  }
+  newton->failures++;
+  char why[120];
+  snprintf(why, sizeof why, "the residual is %.2g of the forces after %d iterations, not below %.2g",
+           newton->scale > 0 ? before / newton->scale : 0, *iterations, tolerance);
+  return fail(error, model, time, why);
+}

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Newton's method for a balance of forces r(x) = 0 with a symmetric tangent A = -dr/dx:
+//   A d = r,  x <- x + d,
+// in full steps, which are halved only when a number is no longer finite or an element turns inside
+// out: looking at the residual's norm ruins bending. The linear systems are solved as exactly as the
+// residual deserves (Eisenstat & Walker 1996, choice 2), so convergence is quadratic.
+#ifndef VSC_SOLVE_NEWTON_H
+#define VSC_SOLVE_NEWTON_H
+
+#include "mech/state.h"
+#include "mech/tangent.h"
+#include "solve/linear.h"
+
+enum { VSC_MOST_NEWTON = 40 };  // iterations of one solution
+
+// What has to vanish. `residual` fills r (node_count x 4, mN) at x; `assemble` the tangent at the x of
+// the last residual.
+typedef struct vsc_balance {
+  void *context;
+  void (*residual)(void *context, const double *x, double *r);
+  void (*assemble)(void *context, const double *x, vsc_tangent *tangent);
+} vsc_balance;
+
+// One iteration of one solution, for those who want to see how it went.
+typedef struct vsc_newton_row {
+  double time;        // ms
+  double load;        // part of the loads, 1: all
+  double iteration;   // from 0; 0 is before the first step
+  double residual;    // |r| over the scale of forces so far
+  double linear;      // iterations of conjugate gradients that this step took
+  double factorized;  // factorisations
+} vsc_newton_row;
+
+typedef struct vsc_newton {
+  const vsc_model *model;
+  vsc_tangent *tangent;
+  vsc_linear *linear;
+  double *r, *d, *trial;  // node_count x 4
+  double scale;           // largest |r| so far, mN
+  size_t row_count, row_room;
+  vsc_newton_row *rows;   // since they were last taken; owned
+  double iterations, solutions, failures;  // since the start
+  bool indefinite;        // a direction of negative curvature was met in the last solution
+} vsc_newton;
+
+// Memory for `model`; VSC_INPUT where it has no tangent (mech/tangent.h). The caller owns *newton.
+vsc_status vsc_newton_create(const vsc_model *model, vsc_newton **newton, vsc_error *error);
+
+void vsc_newton_free(vsc_newton *newton);  // NULL is fine
+
+// Solves from x (node_count x 4), which becomes the solution, to |r| <= tolerance x the scale of
+// forces. `time` and `load` go into the rows. VSC_NUMERICAL, with plain words why, when it does
+// not converge; x is then undefined.
+vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, double time, double load,
+                            double *x, int *iterations, vsc_error *error);
+
+// The smallest volume ratio J of any frame at x, and the mesh's element that has it.
+double vsc_smallest_ratio(const vsc_model *model, const double *x, uint32_t *element);
+
+#endif

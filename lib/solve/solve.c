@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/solve.h"
+
+#include "solve/equilibrium.h"
+#include "solve/explicit.h"
+
+vsc_status vsc_solve_start(const vsc_model *model, vsc_state *state, vsc_error *error)
+{
+  if (model->solve.kind == VSC_SOLVE_EQUILIBRIUM) return vsc_equilibrium_start(model, state, error);
+  return vsc_start(model, state, error);
+}
+
+vsc_status vsc_solve_to(const vsc_model *model, vsc_state *state, double until, vsc_error *error)
+{
+  if (model->solve.kind == VSC_SOLVE_EQUILIBRIUM)
+    return vsc_equilibrium_to(model, state, until, error);
+  return vsc_advance(model, state, until, error);
+}
+
+vsc_newton *vsc_solve_newton(const vsc_model *model, vsc_state *state)
+{
+  return model->solve.kind == VSC_SOLVE_EQUILIBRIUM ? state->solver : NULL;
+}

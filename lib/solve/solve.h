@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The one way to move a state on, whatever the scene's method is.
+#ifndef VSC_SOLVE_SOLVE_H
+#define VSC_SOLVE_SOLVE_H
+
+#include "mech/state.h"
+#include "solve/newton.h"
+
+// Prepares a new state at time 0: vsc_start of the explicit method, vsc_equilibrium_start.
+vsc_status vsc_solve_start(const vsc_model *model, vsc_state *state, vsc_error *error);
+
+// Moves the state on to `until` (ms): vsc_advance, vsc_equilibrium_to. After a failure the state is the
+// last good one of the method, or as the explicit method left it.
+vsc_status vsc_solve_to(const vsc_model *model, vsc_state *state, double until, vsc_error *error);
+
+// Newton's iterations since the start, or NULL where the method has none.
+vsc_newton *vsc_solve_newton(const vsc_model *model, vsc_state *state);
+
+#endif
