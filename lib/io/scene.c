@@ -50,15 +50,16 @@ static vsc_scene *create_scene(const char *file)
   return scene;
 }
 
-// Intervals that the scene does not give: of a motion 10 and 1 ms; equilibria are found at the end
-// only, or where frames are wanted.
+// Intervals that the scene does not give: of a motion 10 and 1 ms, where steps are long both 10;
+// equilibria are found at the end only, or where frames are wanted.
 static void complete_output(vsc_scene *scene)
 {
   vsc_output_def *output = &scene->output;
-  const bool motion = scene->definition.solve.kind != VSC_SOLVE_EQUILIBRIUM;
+  const vsc_solve_kind kind = scene->definition.solve.kind;
   if (isnan(output->frame_interval))
-    output->frame_interval = motion ? 10 : scene->definition.end_time;
-  if (isnan(output->signal_interval)) output->signal_interval = motion ? 1 : output->frame_interval;
+    output->frame_interval = kind == VSC_SOLVE_EQUILIBRIUM ? scene->definition.end_time : 10;
+  if (isnan(output->signal_interval))
+    output->signal_interval = kind == VSC_SOLVE_EXPLICIT ? 1 : output->frame_interval;
 }
 
 static vsc_status apply_settings(vsc_reading *reading, vsc_slot *slots, const char *const *texts,

@@ -18,7 +18,8 @@ typedef struct vsc_output_def {
   bool double_precision;   // 64-bit floats in the frames; default false: 32
   size_t array_count;      // arrays of the frames; 0: the default set
   char arrays[VSC_OUTPUT_ARRAYS][VSC_NAME];
-  double signal_interval;  // ms between rows of signals.csv; default 1; of equilibria as the frames
+  double signal_interval;  // ms between rows of signals.csv; default 1; of solve
+                           // implicit and equilibrium as the frames
   size_t cavity_count;     // surfaces whose enclosed (capped) volume is a signal
   char cavities[VSC_OUTPUT_ARRAYS][VSC_NAME];
   double checkpoint_interval;  // ms between checkpoints; 0: only at the end; default 0

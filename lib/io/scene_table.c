@@ -21,13 +21,25 @@ GROUP(static, mesh, -1);
 
 static const vsc_word solve_kinds[] = {{"explicit", VSC_SOLVE_EXPLICIT},
                                        {"equilibrium", VSC_SOLVE_EQUILIBRIUM},
+                                       {"implicit", VSC_SOLVE_IMPLICIT},
                                        {NULL, 0}};
 static const vsc_word linear_kinds[] = {{"auto", VSC_LINEAR_AUTO},
                                         {"direct", VSC_LINEAR_DIRECT},
                                         {"iterative", VSC_LINEAR_ITERATIVE},
                                         {NULL, 0}};
 
+static const vsc_word schemes[] = {{"generalized_alpha", VSC_SCHEME_GENERALIZED_ALPHA},
+                                   {"trapezoid", VSC_SCHEME_TRAPEZOID},
+                                   {"bdf2", VSC_SCHEME_BDF2},
+                                   {NULL, 0}};
+
 static const vsc_row solver_rows[] = {
+    {"scheme", CHOICE(vsc_definition, solve.scheme, schemes), .text = "generalized_alpha",
+     .meaning = "implicit: or trapezoid, bdf2"},
+    {"rho", NUMBER(vsc_definition, solve.rho), .text = "0.5",
+     .meaning = "generalized_alpha: what the fastest motions keep in a step, 0 to 1"},
+    {"accuracy", NUMBER(vsc_definition, solve.accuracy), .text = "1e-5",
+     .meaning = "implicit, time.step auto: error of a step, part of the body's size"},
     {"linear", CHOICE(vsc_definition, solve.linear, linear_kinds), .text = "auto",
      .meaning = "systems: auto, direct (a factor, reused), iterative (little memory)"},
     {"tolerance", NUMBER(vsc_definition, solve.tolerance), .text = "1e-6",
@@ -122,9 +134,9 @@ static const vsc_row vsc_scene_group_rows[] = {
     {"pressures", SCENE_PARTS(pressures, pressure_count, vsc_pressure_group),
      .meaning = "that follow their surface"},
     {"solve", CHOICE(vsc_scene, definition.solve.kind, solve_kinds), .text = "explicit",
-     .meaning = "explicit (motion), or equilibrium (forces balance, no inertia)"},
+     .meaning = "explicit or implicit (motion), or equilibrium (forces balance, no inertia)"},
     {"solver", PART(offsetof(vsc_scene, definition), solver), .commented = true,
-     .meaning = "solve: equilibrium: how"},
+     .meaning = "solve: implicit or equilibrium: how"},
     {"time", PART(offsetof(vsc_scene, definition), time), .needed = VSC_ALWAYS,
      .meaning = "how long"},
     {"output", PART(offsetof(vsc_scene, output), output), .meaning = "what is written"},

@@ -8,6 +8,7 @@
 #include "mech/kernel_solid.h"
 #include "mech/kernel_tets.h"
 #include "model/law.h"
+#include "model/law_viscous.h"
 
 // One frame of four cells, ready for its tangent.
 typedef struct tangent_frame {
@@ -38,17 +39,6 @@ VSC_INLINE void open_frame(const vsc_frame *frame, const double (*D)[VSC_MOST_CO
   }
 }
 
-// Viscous stress S = D_v de/dt with the diagonal of D_v: eta_a/n_a^2 of the axial dampers.
-VSC_INLINE void viscous_diagonal(const vsc_mixture *moduli, const vsc_wide e[6], vsc_wide diagonal[6])
-{
-  const vsc_wide shortest = vsc_splat(VSC_SHORTEST_AXIS * VSC_SHORTEST_AXIS);
-  for (int a = 0; a < 3; a++) {
-    const vsc_wide square = 1 + 2 * e[a];
-    diagonal[a] = moduli->damping[a] / vsc_select(square > shortest, square, shortest);
-    diagonal[3 + a] = vsc_splat(0);
-  }
-}
-
 // S and D of the frame, both as the system weighs them: stiffness_factor for positions,
 // damping_factor for velocities.
 VSC_INLINE void weigh_answer(const vsc_patch_work *work, const vsc_law_input *in, const vsc_wide3 g[3],
@@ -57,20 +47,22 @@ VSC_INLINE void weigh_answer(const vsc_patch_work *work, const vsc_law_input *in
   vsc_wide e[6];
   vsc_strain_of(g, e);
   vsc_law_evaluate(in, e, VSC_LAW_TANGENT, answer);
-  vsc_wide viscous[6];
+  vsc_wide viscous[6][6], speed[6];
   if (rate != NULL) {
-    viscous_diagonal(&in->moduli, e, viscous);
+    vsc_law_viscous(in->material, &in->moduli, in->axes, e, viscous);
     for (int a = 0; a < 3; a++) {
       const int b = (a + 1) % 3;
-      answer->S[a] += viscous[a] * vsc_wide_dot(g[a], rate[a]);
-      answer->S[3 + a] +=
-          viscous[3 + a] * (vsc_wide_dot(g[a], rate[b]) + vsc_wide_dot(g[b], rate[a]));
+      speed[a] = vsc_wide_dot(g[a], rate[a]);
+      speed[3 + a] = vsc_wide_dot(g[a], rate[b]) + vsc_wide_dot(g[b], rate[a]);
     }
   }
   for (int k = 0; k < 6; k++) {
+    for (int l = 0; rate != NULL && l < 6; l++) answer->S[k] += viscous[k][l] * speed[l];
     answer->S[k] *= work->stiffness_factor;
-    for (int l = 0; l < 6; l++) answer->D[k][l] *= work->stiffness_factor;
-    if (rate != NULL) answer->D[k][k] += work->damping_factor * viscous[k];
+    for (int l = 0; l < 6; l++) {
+      answer->D[k][l] *= work->stiffness_factor;
+      if (rate != NULL) answer->D[k][l] += work->damping_factor * viscous[k][l];
+    }
   }
 }
 

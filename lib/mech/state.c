@@ -19,6 +19,8 @@ static bool allocate(const vsc_model *model, vsc_state *state)
   scratch->local_size = (4 * 3 + 1) * model->most_nodes + VSC_WIDTH * (model->most_packs + 2);
   scratch->local_size = (scratch->local_size + 7) / 8 * 8;
   const bool nodal = model->terms.nodal_volume;
+  const bool remembers =
+      model->solve.kind == VSC_SOLVE_IMPLICIT && model->solve.scheme == VSC_SCHEME_BDF2;
   return VSC_NEW(state->x, 4 * n) && VSC_NEW(state->v, 4 * n) && VSC_NEW(state->a, 4 * n) &&
          VSC_NEW(state->force, 4 * n) && VSC_NEW(state->limit.mode, 4 * n) &&
          VSC_NEW(scratch->local, (size_t)scratch->threads * scratch->local_size) &&
@@ -31,7 +33,9 @@ static bool allocate(const vsc_model *model, vsc_state *state)
          VSC_NEW(state->contact_normal, model->obstacle_count > 0 ? 4 * n : 0) &&
          VSC_NEW(state->former, model->obstacle_count > 0 ? 4 * n : 0) &&
          VSC_NEW(state->pending, model->obstacle_count > 0 ? 4 * n : 0) &&
-         VSC_NEW(state->kept_pressure, model->kept.count);
+         VSC_NEW(state->kept_pressure, model->kept.count) &&
+         VSC_NEW(state->former_x, remembers ? 4 * n : 0) &&
+         VSC_NEW(state->former_v, remembers ? 4 * n : 0);
 }
 
 vsc_status vsc_state_create(const vsc_model *model, vsc_state **state, vsc_error *error)
@@ -60,6 +64,8 @@ void vsc_state_free(vsc_state *state)
   vsc_free(state->former);
   vsc_free(state->pending);
   vsc_free(state->kept_pressure);
+  vsc_free(state->former_x);
+  vsc_free(state->former_v);
   if (state->keeper != NULL) state->release_keeper(state->keeper);
   if (state->solver != NULL) state->release_solver(state->solver);
   vsc_free(state->limit.mode);

@@ -61,6 +61,9 @@ typedef struct vsc_state {
   double *kept_pressure;  // kept.count: multiplier of each kept volume in the last step, kPa; owned
   void *keeper;           // what keeps them (solve/keep_volume.c), made when first needed
   void (*release_keeper)(void *keeper);
+  double former_step;         // scheme BDF2: the step before, 0: none yet, ms
+  double *former_x;           // node_count x 4: position before it, mm; likewise, owned
+  double *former_v;           // node_count x 4: velocity before it, mm/ms; likewise, owned
   void *solver;           // memory of the method (solve/solve.c), made when it starts
   void (*release_solver)(void *solver);
   vsc_limit limit;

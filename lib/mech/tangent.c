@@ -386,6 +386,15 @@ void vsc_tangent_precondition(const vsc_model *model, vsc_tangent *tangent, cons
   for_sharing_tets(model, tangent, x, add_tet_to_preconditioner);
 }
 
+void vsc_tangent_add_masses(const vsc_model *model, vsc_tangent *tangent, double factor)
+{
+  for (size_t n = 0; n < model->node_count; n++) {
+    size_t stride;
+    double *block = vsc_block_at(&tangent->matrix, n, tangent->matrix.start[n], &stride);
+    for (size_t i = 0; i < 3; i++) block[stride * i + i] += factor * model->mass[n];
+  }
+}
+
 // ---- products
 
 // y += G^T W G x

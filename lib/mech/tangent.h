@@ -42,6 +42,9 @@ void vsc_tangent_assemble(const vsc_model *model, vsc_tangent *tangent, const do
                           const double *w, double time, double stiffness_factor,
                           double damping_factor, vsc_scratch *scratch);
 
+// Adds factor times the lumped masses to the diagonal; factor in 1/ms^2.
+void vsc_tangent_add_masses(const vsc_model *model, vsc_tangent *tangent, double factor);
+
 // Fills the preconditioner from the tangent that was assembled last, at x.
 void vsc_tangent_precondition(const vsc_model *model, vsc_tangent *tangent, const double *x);
 

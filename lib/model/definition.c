@@ -39,7 +39,8 @@ vsc_obstacle_def vsc_default_obstacle(void)
 
 vsc_definition vsc_default_definition(void)
 {
-  return (vsc_definition){.volume = VSC_VOLUME_NODAL, .safety = 0.8, .solve = {.tolerance = 1e-6}};
+  return (vsc_definition){.volume = VSC_VOLUME_NODAL, .safety = 0.8, 
+                          .solve = {.rho = 0.5, .accuracy = 1e-5, .tolerance = 1e-6}};
 }
 
 bool vsc_takes_elements(const vsc_definition *definition, size_t material)

@@ -203,6 +203,7 @@ typedef struct vsc_pressure_def {
 typedef enum vsc_solve_kind {
   VSC_SOLVE_EXPLICIT,     // Stoermer-Verlet (default)
   VSC_SOLVE_EQUILIBRIUM,  // forces balance at each time that is written; no inertia, no damping
+  VSC_SOLVE_IMPLICIT,     // one of the schemes below
 } vsc_solve_kind;
 
 // How Newton's method solves its linear systems.
@@ -213,9 +214,20 @@ typedef enum vsc_linear_kind {
   VSC_LINEAR_ITERATIVE,  // conjugate gradients with diagonal blocks only: little memory
 } vsc_linear_kind;
 
+// Implicit schemes (solve/implicit.h).
+typedef enum vsc_scheme {
+  VSC_SCHEME_GENERALIZED_ALPHA,  // default
+  VSC_SCHEME_TRAPEZOID,
+  VSC_SCHEME_BDF2,
+} vsc_scheme;
+
 typedef struct vsc_solve_def {
   vsc_solve_kind kind;
   vsc_linear_kind linear;
+  vsc_scheme scheme;
+  double rho;        // GENERALIZED_ALPHA: by what the fastest motions decay in each step, 0 to 1; default 0.5
+  double accuracy;   // IMPLICIT without a given step: error of a step as a part of the body's size;
+                     // default 1e-5
   double tolerance;  // of the residual, as a part of the forces at work; default 1e-6
 } vsc_solve_def;
 

@@ -9,10 +9,10 @@
 #include "base/vec3.h"
 #include "mech/kernel.h"
 #include "mech/step_limit.h"
+#include "mech/tangent.h"
 #include "mesh/quality.h"
 #include "mesh/surface.h"
 #include "solve/explicit.h"
-#include "solve/solve.h"
 
 static const char *const source_names[] = {"none",       "map",        "arrays",   "constant",
                                            "helix",      "horizontal", "diagonal", "hemicircular",
@@ -304,6 +304,47 @@ static vsc_status say_cost(const vsc_problem *problem, vsc_state *state, FILE *o
   return VSC_OK;
 }
 
+// The step and the cost of explicit stepping, found by doing some.
+static vsc_status say_stepping(const vsc_problem *problem, FILE *out, vsc_error *error)
+{
+  const vsc_model *model = problem->model;
+  vsc_state *state;
+  vsc_status status = vsc_state_create(model, &state, error);
+  if (status != VSC_OK) return status;
+  status = vsc_in_scene(problem->scene->file, vsc_start(model, state, error), error);
+  if (status == VSC_OK) {
+    say_step(problem, state, out);
+    status = vsc_in_scene(problem->scene->file, say_cost(problem, state, out, error), error);
+  }
+  vsc_state_free(state);
+  return status;
+}
+
+// What Newton's method will work on.
+static vsc_status say_newton(const vsc_problem *problem, FILE *out, vsc_error *error)
+{
+  static const char *const schemes[] = {"generalised alpha", "trapezoid", "BDF2"};
+  static const char *const linears[] = {"auto", "direct", "iterative"};
+  const vsc_model *model = problem->model;
+  const vsc_solve_def *solve = &model->solve;
+  vsc_tangent *tangent;
+  const vsc_status status =
+      vsc_in_scene(problem->scene->file, vsc_tangent_create(model, &tangent, error), error);
+  if (status != VSC_OK) return status;
+  if (solve->kind == VSC_SOLVE_IMPLICIT && model->step > 0)
+    fprintf(out, "solve      implicit, %s, steps of %g ms", schemes[solve->scheme], model->step);
+  else if (solve->kind == VSC_SOLVE_IMPLICIT)
+    fprintf(out, "solve      implicit, %s, steps from their error: %g of the size of the body",
+            schemes[solve->scheme], solve->accuracy);
+  else
+    fprintf(out, "solve      equilibrium at each frame and signal");
+  const size_t blocks = tangent->matrix.start[model->node_count];
+  fprintf(out, "; Newton to %g; %zu unknowns, a matrix of %.3g MB, systems %s\n", solve->tolerance,
+          3 * model->node_count, 1e-6 * 72 * (double)blocks, linears[solve->linear]);
+  vsc_tangent_free(tangent);
+  return VSC_OK;
+}
+
 vsc_status vsc_check(const vsc_problem *problem, FILE *stream, int *warnings, vsc_error *error)
 {
   const vsc_model *model = problem->model;
@@ -320,19 +361,12 @@ vsc_status vsc_check(const vsc_problem *problem, FILE *stream, int *warnings, vs
   for (size_t m = 0; m < model->material_count; m++) say_material(model, &model->materials[m], stream);
   say_membranes(model, stream);
   say_terms(model, stream);
-  vsc_state *state;
-  status = vsc_state_create(model, &state, error);
-  if (status != VSC_OK) return status;
-  status = vsc_in_scene(problem->scene->file, vsc_start(model, state, error), error);
-  if (status == VSC_OK) {
-    say_step(problem, state, stream);
-    status = vsc_in_scene(problem->scene->file, say_cost(problem, state, stream, error), error);
-  }
+  status = model->solve.kind == VSC_SOLVE_EXPLICIT ? say_stepping(problem, stream, error)
+                                                   : say_newton(problem, stream, error);
   if (status == VSC_OK) {
     const int found = vsc_check_warnings(problem, stream, "warning    ");
     if (found == 0) fprintf(stream, "warnings   none\n");
     if (warnings) *warnings = found;
   }
-  vsc_state_free(state);
   return status;
 }

@@ -6,6 +6,7 @@
 #include "io/pvd.h"
 #include "run/run.h"
 #include "run/watch.h"
+#include "solve/solve.h"
 
 // Bytes of the name of a run's folder; a slash and a file's name come behind it.
 enum { VSC_LONGEST_DIRECTORY = VSC_PATH - VSC_NAME - 112 };
@@ -19,6 +20,7 @@ typedef struct vsc_job {
   vsc_pvd *pvd;
   double *good;  // what vsc_job_keep_good has kept; owned
   double start_wall, start_cpu, start_steps, start_time;
+  double converged_rows;  // of convergence.csv so far
   double most_inverted;  // largest number of elements with J <= 0 at any row
 } vsc_job;
 
@@ -27,6 +29,10 @@ void vsc_job_path(const vsc_job *job, const char *what, char path[VSC_PATH]);
 
 // Writes the current state as a VTU frame and adds it to the PVD.
 vsc_status vsc_job_write_frame(vsc_job *job, vsc_error *error);
+
+// Appends what Newton's method did since the last call to DIRECTORY/convergence.csv; nothing where the
+// method has no Newton.
+vsc_status vsc_job_write_convergence(vsc_job *job, vsc_error *error);
 
 // Writes or reads DIRECTORY/checkpoint.h5.
 vsc_status vsc_job_save(vsc_job *job, vsc_error *error);

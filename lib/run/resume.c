@@ -6,7 +6,7 @@
 #include "run/job.h"
 
 // Scalars of a checkpoint, in the order of list_scalars.
-enum { CLOCK = 0, LIMIT = 2, WORKS = 8, WATCH = 13, SCALARS = 17, BLOCKS = 13 };
+enum { CLOCK = 0, LIMIT = 2, WORKS = 8, WATCH = 13, SCALARS = 17, BLOCKS = 16 };
 
 static void list_scalars(vsc_job *job, double *places[SCALARS])
 {
@@ -45,6 +45,15 @@ static size_t contact_nodes(const vsc_job *job)
   return model->obstacle_count > 0 ? model->node_count : 0;
 }
 
+// Nodes that remember the step before (scheme BDF2).
+static size_t former_nodes(const vsc_job *job)
+{
+  const vsc_model *model = job->problem->model;
+  const bool remembers =
+      model->solve.kind == VSC_SOLVE_IMPLICIT && model->solve.scheme == VSC_SCHEME_BDF2;
+  return remembers ? model->node_count : 0;
+}
+
 static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[BLOCKS])
 {
   vsc_state *state = job->state;
@@ -59,6 +68,9 @@ static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[
       {"middle_velocity", "mm/ms", contact_nodes(job), 4, state->former},
       {"contact_impulse", "mN ms", contact_nodes(job), 4, state->pending},
       {"contact_normal", "1", contact_nodes(job), 4, state->contact_normal},
+      {"former_position", "mm", former_nodes(job), 4, state->former_x},
+      {"former_velocity", "mm/ms", former_nodes(job), 4, state->former_v},
+      {"former_step", "ms", former_nodes(job) > 0, 1, &state->former_step},
       {"time_and_steps", "ms, 1", LIMIT - CLOCK, 1, scalars + CLOCK},
       {"step_limit", "1/ms^2, ms, ms, ms, 1, ms", WORKS - LIMIT, 1, scalars + LIMIT},
       {"works", "uJ, uJ, uJ, uJ, 1", WATCH - WORKS, 1, scalars + WORKS},

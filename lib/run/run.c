@@ -81,6 +81,7 @@ static vsc_status open_files(vsc_job *job, vsc_error *error)
   if (status == VSC_OK && !job->options->resume) {
     remove_file(job, "checkpoint.h5");
     remove_file(job, "summary.json");
+    remove_file(job, "convergence.csv");
   }
   vsc_job_path(job, "scene.yaml", path);
   if (status == VSC_OK) status = vsc_scene_write(job->problem->scene, path, error);
@@ -166,7 +167,10 @@ static bool is_event(double before, double now, double interval, double end)
 
 static vsc_status go_to(vsc_job *job, double time, vsc_error *error)
 {
-  const vsc_status status = vsc_solve_to(job->problem->model, job->state, time, error);
+  vsc_status status = vsc_solve_to(job->problem->model, job->state, time, error);
+  const vsc_status written =
+      vsc_job_write_convergence(job, status == VSC_OK ? error : NULL);
+  if (status == VSC_OK) status = written;
   return status == VSC_OK ? observe(job, error) : status;
 }
 

@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "mech/kernel.h"
 #include "run/job.h"
+#include "solve/implicit.h"
 
 // A text as a JSON string.
 static void write_string(FILE *file, const char *key, const char *text, const char *end)
@@ -26,6 +27,25 @@ static void write_number(FILE *file, const char *key, double value, const char *
     fprintf(file, "  \"%s\": %.10g%s\n", key, value, end);
   else
     fprintf(file, "  \"%s\": null%s\n", key, end);
+}
+
+static void write_newton(const vsc_job *job, FILE *file)
+{
+  const vsc_model *model = job->problem->model;
+  const vsc_newton *newton = vsc_solve_newton(model, job->state);
+  if (newton == NULL) return;
+  const vsc_linear_counts linear = vsc_linear_counted(newton->linear);
+  write_number(file, "newton_solutions", newton->solutions, ",");
+  write_number(file, "newton_iterations", newton->iterations, ",");
+  write_number(file, "newton_failures", newton->failures, ",");
+  write_number(file, "linear_iterations", linear.iterations, ",");
+  write_number(file, "factorizations", linear.factorizations, ",");
+  write_number(file, "factor_entries", linear.factor_entries, ",");
+  write_number(file, "factor_flops", linear.factor_flops, ",");
+  if (model->solve.kind != VSC_SOLVE_IMPLICIT) return;
+  const vsc_implicit_counts counts = vsc_implicit_counted(job->state);
+  write_number(file, "steps_rejected", counts.rejected, ",");
+  write_number(file, "steps_failed", counts.failed, ",");
 }
 
 static void write_body(const vsc_job *job, const vsc_run_result *result, const char *failure,
@@ -58,6 +78,7 @@ static void write_body(const vsc_job *job, const vsc_run_result *result, const c
   if (model->terms.paper)
     write_string(file, "conservative", "no: law paper keeps neither energy nor momenta", ",");
   write_number(file, "step_estimates", job->state->limit.refreshes, ",");
+  write_newton(job, file);
   write_number(file, "most_inverted_elements", job->most_inverted, ",");
   write_number(file, "frames", (double)result->frames, ",");
   write_number(file, "load_seconds", problem->load_seconds, ",");

@@ -154,7 +154,8 @@ static void warn_setting(writer *w, const vsc_problem *problem)
     pushed |= vsc_norm(model->obstacles[o].motion) > 0;
   if (model->terms.active == VSC_ACTIVE_NONE && !driven && !pushed)
     warn(w, "nothing will move: no active material, no pressure, no gravity");
-  if (!model->terms.damping) warn(w, "materials: no damping, so vibrations never die away");
+  if (!model->terms.damping && model->solve.kind != VSC_SOLVE_EQUILIBRIUM)
+    warn(w, "materials: no damping, so vibrations never die away");
 }
 
 int vsc_check_warnings(const vsc_problem *problem, FILE *stream, const char *prefix)

@@ -63,8 +63,7 @@ vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double u
   const double start = state->time, way = until - start, load0 = state->steps > 0 ? 1 : 0;
   double *x = state->scratch.trial;
   double done = 0, increment = 1;
-  // what follows must not depend on what a restart would not have
-  vsc_linear_forget(newton->linear);
+  vsc_newton_begin(newton);
   while (done < 1) {
     const double next = done + increment > 1 - SHORTEST ? 1 : done + increment;
     statics s = {model, state, start + next * way};

@@ -7,8 +7,9 @@
 
 #include "base/mem.h"
 
-// With a factor of a former matrix more iterations than this cost more than a new one.
-enum { STALE = 40, LEAST_BUDGET = 100, MOST_PLAIN = 5000 };
+// With a factor of a former matrix this many iterations more than with a fresh one cost more than a
+// factorisation.
+enum { STALE = 30, MOST_ITERATIONS = 1000, LEAST_BUDGET = 100, MOST_PLAIN = 5000 };
 // A factorisation of n unknowns of a compact body costs about as much as n/BUDGET iterations.
 #define BUDGET 16.0
 // Volume over shear modulus from which diagonal blocks are not worth trying.
@@ -22,8 +23,9 @@ struct vsc_linear {
   int *column, *row;       // its pattern as CHOLMOD reads it
   cholmod_factor *factor;  // analysed when first needed
   bool factorized;         // the factor holds numbers
-  bool fresh;              // they are those of the present matrix
-  double plain_left;       // iterations with diagonal blocks that may still be spent
+  double with_fresh;       // iterations that a solution took right after a factorisation
+  double budget;           // iterations with diagonal blocks that may be spent before a factorisation,
+  double plain_left;       // and what is left of them
   cholmod_dense *right, *solution, *y, *e;  // memory of CHOLMOD's solution
   double *blocks;          // node_count x 9: inverses of the diagonal blocks
   double *r, *z, *p, *q;   // node_count x 4
@@ -79,10 +81,10 @@ vsc_status vsc_linear_create(const vsc_model *model, const vsc_tangent *tangent,
   made->common.print = 0;
   made->model = model;
   made->kind = kind;
-  made->plain_left = fmax(3 * (double)nodes / BUDGET, LEAST_BUDGET);
-  if (stiffest_ratio(model) > STIFF_RATIO) made->plain_left = 0;
-  if (kind == VSC_LINEAR_DIRECT) made->plain_left = 0;
-  if (kind == VSC_LINEAR_ITERATIVE) made->plain_left = INFINITY;
+  made->budget = fmax(3 * (double)nodes / BUDGET, LEAST_BUDGET);
+  if (stiffest_ratio(model) > STIFF_RATIO || kind == VSC_LINEAR_DIRECT) made->budget = 0;
+  if (kind == VSC_LINEAR_ITERATIVE) made->budget = INFINITY;
+  made->plain_left = made->budget;
   if (!VSC_NEW(made->blocks, 9 * nodes) || !VSC_NEW(made->r, 4 * nodes) ||
       !VSC_NEW(made->z, 4 * nodes) || !VSC_NEW(made->p, 4 * nodes) || !VSC_NEW(made->q, 4 * nodes)) {
     vsc_linear_free(made);
@@ -95,6 +97,8 @@ vsc_status vsc_linear_create(const vsc_model *model, const vsc_tangent *tangent,
 void vsc_linear_forget(vsc_linear *linear)
 {
   linear->factorized = false;
+  linear->with_fresh = 0;
+  linear->plain_left = linear->budget;
 }
 
 vsc_linear_counts vsc_linear_counted(const vsc_linear *linear)
@@ -193,7 +197,7 @@ static vsc_status factorize(vsc_linear *linear, vsc_tangent *tangent, const doub
     if (!done && common->status == CHOLMOD_OUT_OF_MEMORY)
       return vsc_fail_memory(error, "the factor of the tangent; take linear: iterative");
     if (done && common->status == CHOLMOD_OK) {
-      linear->factorized = linear->fresh = true;
+      linear->factorized = true;
       return VSC_OK;
     }
     shift[0] = k == 0 ? 1e-4 * largest : 10 * shift[0];
@@ -299,7 +303,6 @@ vsc_status vsc_linear_solve(vsc_linear *linear, vsc_tangent *tangent, const doub
                             bool *indefinite, vsc_error *error)
 {
   *indefinite = false;
-  linear->fresh = false;
   vsc_block_matrix_hold(&tangent->matrix, free, vsc_block_matrix_largest(&tangent->matrix, free));
   memset(linear->p, 0, 4 * linear->model->node_count * sizeof *linear->p);
   if (!linear->factorized && linear->plain_left > 0) {
@@ -315,10 +318,12 @@ vsc_status vsc_linear_solve(vsc_linear *linear, vsc_tangent *tangent, const doub
     }
   }
   if (linear->factorized &&
-      iterate(linear, tangent, free, b, tolerance, STALE, d) == CONVERGED)
+      iterate(linear, tangent, free, b, tolerance, linear->with_fresh + STALE, d) == CONVERGED)
     return VSC_OK;
   const vsc_status status = factorize(linear, tangent, free, x, error);
   if (status != VSC_OK) return status;
-  *indefinite = iterate(linear, tangent, free, b, tolerance, 10 * STALE, d) == NEGATIVE;
+  const double before = linear->counts.iterations;
+  *indefinite = iterate(linear, tangent, free, b, tolerance, MOST_ITERATIONS, d) == NEGATIVE;
+  linear->with_fresh = linear->counts.iterations - before;
   return VSC_OK;
 }

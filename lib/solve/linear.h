@@ -23,7 +23,7 @@ vsc_status vsc_linear_create(const vsc_model *model, const vsc_tangent *tangent,
 
 void vsc_linear_free(vsc_linear *linear);  // NULL is fine
 
-// Forgets the factor, so that what follows does not depend on what was before.
+// Forgets the factor and what was spent, so that what follows does not depend on what was before.
 void vsc_linear_forget(vsc_linear *linear);
 
 // d with |b - A d| <= tolerance |b| for the tangent as assembled at x, unknowns with `free` 0 held at

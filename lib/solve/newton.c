@@ -11,6 +11,9 @@
 enum { MOST_HALVINGS = 4 };
 // A residual that has grown by this factor since the start of a solution does not come back.
 #define DIVERGED 1e4
+// Positions are rounded to this part of the body's size, and forces with them.
+#define ROUNDING 4e-16
+#define STILL 1e-14
 
 vsc_status vsc_newton_create(const vsc_model *model, vsc_newton **newton, vsc_error *error)
 {
@@ -19,6 +22,7 @@ vsc_status vsc_newton_create(const vsc_model *model, vsc_newton **newton, vsc_er
   *newton = NULL;
   if (!VSC_NEW(made, 1)) return vsc_fail_memory(error, "Newton's method");
   made->model = model;
+  made->size = vsc_body_size(model);
   vsc_status status = vsc_tangent_create(model, &made->tangent, error);
   if (status == VSC_OK)
     status = vsc_linear_create(model, made->tangent, model->solve.linear, &made->linear, error);
@@ -43,6 +47,26 @@ void vsc_newton_free(vsc_newton *newton)
   vsc_free(newton->trial);
   vsc_free(newton->rows);
   vsc_free(newton);
+}
+
+void vsc_newton_begin(vsc_newton *newton)
+{
+  vsc_linear_forget(newton->linear);
+  newton->scale = newton->floor = 0;
+}
+
+double vsc_body_size(const vsc_model *model)
+{
+  double square = 0;
+  for (int i = 0; i < 3; i++) {
+    double low = INFINITY, high = -INFINITY;
+    for (size_t n = 0; n < model->node_count; n++) {
+      low = fmin(low, model->rest[4 * n + (size_t)i]);
+      high = fmax(high, model->rest[4 * n + (size_t)i]);
+    }
+    square += (high - low) * (high - low);
+  }
+  return sqrt(square);
 }
 
 double vsc_smallest_ratio(const vsc_model *model, const double *x, uint32_t *element)
@@ -110,6 +134,14 @@ static bool step(vsc_newton *newton, double *x, uint32_t *element)
   return false;
 }
 
+// Whether the last step moved nothing by more than positions are rounded.
+static bool stands_still(const vsc_newton *newton)
+{
+  double most = 0;
+  for (size_t i = 0; i < 4 * newton->model->node_count; i++) most = fmax(most, fabs(newton->d[i]));
+  return most <= STILL * newton->size;
+}
+
 static vsc_status fail(vsc_error *error, const vsc_model *model, double time, const char *why)
 {
   (void)model;
@@ -133,7 +165,7 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
     const double relative = newton->scale > 0 ? norm / newton->scale : 0;
     vsc_newton_row row = {time, load, k, relative, 0, 0};
     *iterations = k;
-    if (relative <= tolerance) {
+    if (relative <= tolerance || norm <= newton->floor || (k > 0 && stands_still(newton))) {
       write_row(newton, &row);
       return VSC_OK;
     }
@@ -145,6 +177,8 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
     forcing = fmax(fmin(forcing, 0.1), fmax(0.3 * tolerance / relative, 1e-8));
     before = norm;
     balance->assemble(balance->context, x, newton->tangent);
+    newton->floor = ROUNDING * newton->size * sqrt((double)model->node_count) *
+                    vsc_block_matrix_largest(&newton->tangent->matrix, model->inverse_mass);
     const vsc_status status = vsc_linear_solve(newton->linear, newton->tangent, model->inverse_mass, x,
                                                newton->r, forcing, newton->d, &newton->indefinite, error);
     const vsc_linear_counts after = vsc_linear_counted(newton->linear);

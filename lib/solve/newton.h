@@ -36,7 +36,9 @@ typedef struct vsc_newton {
   vsc_tangent *tangent;
   vsc_linear *linear;
   double *r, *d, *trial;  // node_count x 4
+  double size;            // of the body, mm
   double scale;           // largest |r| so far, mN
+  double floor;           // |r| below which there is rounding only, mN
   size_t row_count, row_room;
   vsc_newton_row *rows;   // since they were last taken; owned
   double iterations, solutions, failures;  // since the start
@@ -48,11 +50,17 @@ vsc_status vsc_newton_create(const vsc_model *model, vsc_newton **newton, vsc_er
 
 void vsc_newton_free(vsc_newton *newton);  // NULL is fine
 
+// To be called before the first solution of a row: forgets what a restart would not know.
+void vsc_newton_begin(vsc_newton *newton);
+
 // Solves from x (node_count x 4), which becomes the solution, to |r| <= tolerance x the scale of
 // forces. `time` and `load` go into the rows. VSC_NUMERICAL, with plain words why, when it does
 // not converge; x is then undefined.
 vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, double time, double load,
                             double *x, int *iterations, vsc_error *error);
+
+// The diagonal of the box round the body at rest, mm.
+double vsc_body_size(const vsc_model *model);
 
 // The smallest volume ratio J of any frame at x, and the mesh's element that has it.
 double vsc_smallest_ratio(const vsc_model *model, const double *x, uint32_t *element);

@@ -3,10 +3,12 @@
 
 #include "solve/equilibrium.h"
 #include "solve/explicit.h"
+#include "solve/implicit.h"
 
 vsc_status vsc_solve_start(const vsc_model *model, vsc_state *state, vsc_error *error)
 {
   if (model->solve.kind == VSC_SOLVE_EQUILIBRIUM) return vsc_equilibrium_start(model, state, error);
+  if (model->solve.kind == VSC_SOLVE_IMPLICIT) return vsc_implicit_start(model, state, error);
   return vsc_start(model, state, error);
 }
 
@@ -14,10 +16,12 @@ vsc_status vsc_solve_to(const vsc_model *model, vsc_state *state, double until, 
 {
   if (model->solve.kind == VSC_SOLVE_EQUILIBRIUM)
     return vsc_equilibrium_to(model, state, until, error);
+  if (model->solve.kind == VSC_SOLVE_IMPLICIT) return vsc_implicit_to(model, state, until, error);
   return vsc_advance(model, state, until, error);
 }
 
 vsc_newton *vsc_solve_newton(const vsc_model *model, vsc_state *state)
 {
+  if (model->solve.kind == VSC_SOLVE_IMPLICIT) return vsc_implicit_newton(state);
   return model->solve.kind == VSC_SOLVE_EQUILIBRIUM ? state->solver : NULL;
 }

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/implicit.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "mech/force.h"
+
+#define FIRST_STEP 1.0      // ms, unless the way is shorter
+#define SHORTEST_STEP 1e-6  // part of the way to the next stop
+#define LONGER 2.0
+#define SHORTER 0.4
+
+// Numbers of a scheme for one step.
+typedef struct scheme {
+  double mass_past, force_past;  // m, f
+  double A, V;                   // 1/ms^2, 1/ms
+  double error;                  // c
+} scheme;
+
+typedef struct stepper {
+  vsc_newton *newton;
+  vsc_implicit_counts counts;
+  double *h_a, *h_v;          // node_count x 4
+  double *middle, *velocity;  // where forces balance
+  double *next;               // x_1
+} stepper;
+
+static void release(void *solver)
+{
+  stepper *s = solver;
+  vsc_newton_free(s->newton);
+  vsc_free(s->h_a);
+  vsc_free(s->h_v);
+  vsc_free(s->middle);
+  vsc_free(s->velocity);
+  vsc_free(s->next);
+  vsc_free(s);
+}
+
+vsc_newton *vsc_implicit_newton(vsc_state *state)
+{
+  return ((stepper *)state->solver)->newton;
+}
+
+vsc_implicit_counts vsc_implicit_counted(const vsc_state *state)
+{
+  return ((const stepper *)state->solver)->counts;
+}
+
+vsc_status vsc_implicit_start(const vsc_model *model, vsc_state *state, vsc_error *error)
+{
+  const size_t count = 4 * model->node_count;
+  stepper *s;
+  if (!VSC_NEW(s, 1)) return vsc_fail_memory(error, "implicit steps");
+  vsc_status status = vsc_newton_create(model, &s->newton, error);
+  if (status == VSC_OK &&
+      (!VSC_NEW(s->h_a, count) || !VSC_NEW(s->h_v, count) || !VSC_NEW(s->middle, count) ||
+       !VSC_NEW(s->velocity, count) || !VSC_NEW(s->next, count)))
+    status = vsc_fail_memory(error, "implicit steps");
+  if (status != VSC_OK) {
+    release(s);
+    return status;
+  }
+  state->solver = s;
+  state->release_solver = release;
+  state->limit.step = model->step > 0 ? model->step : fmin(FIRST_STEP, model->end_time);
+  vsc_force(model, state->x, state->v, state->time, &state->scratch, state->force);
+  for (size_t i = 0; i < count; i++) state->a[i] = model->inverse_mass[i] * state->force[i];
+  return VSC_OK;
+}
+
+// ---- one step
+
+typedef struct step {
+  const vsc_model *model;
+  vsc_state *state;
+  stepper *s;
+  scheme scheme;
+  double time;  // at which forces balance, ms
+} step;
+
+// The scheme's numbers, and into h_a and h_v what it takes from the past.
+static scheme prepare(const vsc_model *model, const vsc_state *state, stepper *s, double dt)
+{
+  const vsc_solve_def *def = &model->solve;
+  const size_t count = 4 * model->node_count;
+  if (def->scheme == VSC_SCHEME_BDF2) {
+    // y' = (c_1 y_1 - c_0 y_0 + c y_-1)/dt; a first step has no past: backward Euler
+    const double ratio = state->former_step > 0 ? dt / state->former_step : 0;
+    const double first = (1 + 2 * ratio) / (1 + ratio), second = 1 + ratio;
+    const double third = ratio * ratio / (1 + ratio);
+    const scheme bdf = {.A = first * first / (dt * dt), .V = first / dt, .error = 2.0 / 9};
+    for (size_t i = 0; i < count; i++) {
+      s->h_v[i] = (third * state->former_x[i] - second * state->x[i]) / dt;
+      const double past = (third * state->former_v[i] - second * state->v[i]) / dt;
+      s->h_a[i] = bdf.V * s->h_v[i] + past;
+    }
+    return bdf;
+  }
+  const bool damped = def->scheme == VSC_SCHEME_GENERALIZED_ALPHA;
+  const double m = damped ? (2 * def->rho - 1) / (def->rho + 1) : 0;
+  const double f = damped ? def->rho / (def->rho + 1) : 0;
+  const double gamma = 0.5 - m + f, beta = 0.25 * (1 - m + f) * (1 - m + f);
+  const scheme newmark = {.mass_past = m, .force_past = f, .A = 1 / (beta * dt * dt),
+                          .V = gamma / (beta * dt), .error = fabs(beta - 1.0 / 6)};
+  for (size_t i = 0; i < count; i++) {
+    const double a0 = state->a[i], v0 = state->v[i];
+    s->h_a[i] = -newmark.A * (state->x[i] + dt * v0) - (0.5 / beta - 1) * a0;
+    s->h_v[i] = v0 + dt * ((1 - gamma) * a0 + gamma * s->h_a[i]);
+  }
+  return newmark;
+}
+
+// r = f - M [(1 - m) a_1 + m a_0]
+static void residual(void *context, const double *x, double *r)
+{
+  const step *p = context;
+  const vsc_state *state = p->state;
+  const scheme *c = &p->scheme;
+  const double part = 1 - c->force_past;
+  for (size_t i = 0; i < 4 * p->model->node_count; i++) {
+    p->s->middle[i] = part * x[i] + c->force_past * state->x[i];
+    p->s->velocity[i] = part * (c->V * x[i] + p->s->h_v[i]) + c->force_past * state->v[i];
+  }
+  vsc_force(p->model, p->s->middle, p->s->velocity, p->time, &p->state->scratch, r);
+  for (size_t n = 0; n < p->model->node_count; n++)
+    for (size_t i = 4 * n; i < 4 * n + 3; i++)
+      r[i] -= p->model->mass[n] *
+              ((1 - c->mass_past) * (c->A * x[i] + p->s->h_a[i]) + c->mass_past * state->a[i]);
+}
+
+// (1 - f) (K + V C) + (1 - m) A M
+static void assemble(void *context, const double *x, vsc_tangent *tangent)
+{
+  (void)x;
+  const step *p = context;
+  const scheme *c = &p->scheme;
+  const double part = 1 - c->force_past;
+  vsc_tangent_assemble(p->model, tangent, p->s->middle,
+                       p->model->terms.damping ? p->s->velocity : NULL, p->time, part, part * c->V,
+                       &p->state->scratch);
+  vsc_tangent_add_masses(p->model, tangent, (1 - c->mass_past) * c->A);
+}
+
+// Where the state leads, unless that turns an element inside out.
+static void predict(const vsc_model *model, const vsc_state *state, double dt, double *x)
+{
+  uint32_t element;
+  for (size_t i = 0; i < 4 * model->node_count; i++)
+    x[i] = state->x[i] +
+           (model->inverse_mass[i] != 0 ? dt * (state->v[i] + 0.5 * dt * state->a[i]) : 0);
+  if (vsc_smallest_ratio(model, x, &element) <= 0)
+    memcpy(x, state->x, 4 * model->node_count * sizeof *x);
+}
+
+// c dt^2 rms |a_1 - a_0|, mm.
+static double step_error(const step *p, double dt)
+{
+  const vsc_model *model = p->model;
+  double sum = 0;
+  for (size_t i = 0; i < 4 * model->node_count; i++) {
+    if (model->inverse_mass[i] == 0) continue;
+    const double a1 = p->scheme.A * p->s->next[i] + p->s->h_a[i];
+    sum += (a1 - p->state->a[i]) * (a1 - p->state->a[i]);
+  }
+  return p->scheme.error * dt * dt * sqrt(sum / (double)model->node_count);
+}
+
+static void accept(const step *p, double dt)
+{
+  vsc_state *state = p->state;
+  const bool remembers = p->model->solve.scheme == VSC_SCHEME_BDF2;
+  for (size_t i = 0; i < 4 * p->model->node_count; i++) {
+    const bool held = p->model->inverse_mass[i] == 0;
+    if (remembers) {
+      state->former_x[i] = state->x[i];
+      state->former_v[i] = state->v[i];
+    }
+    state->v[i] = held ? 0 : p->scheme.V * p->s->next[i] + p->s->h_v[i];
+    state->a[i] = held ? 0 : p->scheme.A * p->s->next[i] + p->s->h_a[i];
+    state->x[i] = p->s->next[i];
+  }
+  if (remembers) state->former_step = dt;
+}
+
+static vsc_status do_step(const vsc_model *model, vsc_state *state, double dt, double *allowed,
+                          bool *done, vsc_error *error)
+{
+  stepper *s = state->solver;
+  step p = {model, state, s, prepare(model, state, s, dt), 0};
+  p.time = state->time + (1 - p.scheme.force_past) * dt;
+  const vsc_balance balance = {&p, residual, assemble};
+  predict(model, state, dt, s->next);
+  int iterations;
+  *done = false;
+  const vsc_status status =
+      vsc_newton_solve(s->newton, &balance, p.time, 1, s->next, &iterations, error);
+  if (status != VSC_OK) {
+    s->counts.failed += status == VSC_NUMERICAL;
+    *allowed = SHORTER * dt;
+    return status;
+  }
+  if (!(model->step > 0)) {
+    const double most = model->solve.accuracy * s->newton->size, now = step_error(&p, dt);
+    const double factor = now > 0 ? 0.9 * cbrt(most / now) : LONGER;
+    *allowed = dt * fmax(fmin(factor, LONGER), SHORTER);
+    if (now > most) {
+      s->counts.rejected++;
+      return VSC_OK;
+    }
+  }
+  accept(&p, dt);
+  s->counts.steps++;
+  *done = true;
+  return VSC_OK;
+}
+
+vsc_status vsc_implicit_to(const vsc_model *model, vsc_state *state, double until, vsc_error *error)
+{
+  stepper *s = state->solver;
+  const double way = until - state->time;
+  vsc_newton_begin(s->newton);
+  while (state->time < until * (1 - 1e-12)) {
+    const double rest = until - state->time;
+    const double parts = fmax(ceil(rest / state->limit.step * (1 - 1e-9)), 1);
+    const double dt = rest / parts;
+    double allowed = model->step > 0 ? model->step : state->limit.step;
+    bool done;
+    const vsc_status status = do_step(model, state, dt, &allowed, &done, error);
+    if (status != VSC_OK && (status != VSC_NUMERICAL || allowed < SHORTEST_STEP * way)) return status;
+    // a stop nearer than the step that accuracy allows must not shorten the steps behind it
+    if (!done || allowed < state->limit.step || parts > 1 || model->step > 0)
+      state->limit.step = allowed;
+    else
+      state->limit.step = fmax(allowed, state->limit.step);
+    if (!done) continue;
+    state->steps++;
+    state->time = parts == 1 ? until : state->time + dt;
+  }
+  return VSC_OK;
+}
