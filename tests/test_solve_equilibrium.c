@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Equilibrium: closed forms of homogeneous bodies, Newton's quadratic convergence, independence of the
+// increments and of the linear solver, and what is said when there is none.
+#include <gsl/gsl_multiroots.h>
+
+#include "small_body.h"
+#include "solve/linear.h"
+#include "solve/solve.h"
+
+static void hold_symmetry(small_body *body)
+{
+  body_hold(body, "x0", 1, 0, 0);
+  body_hold(body, "y0", 0, 1, 0);
+  body_hold(body, "z0", 0, 0, 1);
+}
+
+static vsc_status solve_to(small_body *body, double time, vsc_error *error)
+{
+  if (body->state->solver == NULL) {
+    const vsc_status status = vsc_solve_start(body->model, body->state, error);
+    if (status != VSC_OK) return status;
+  }
+  return vsc_solve_to(body->model, body->state, time, error);
+}
+
+static void must_solve_to(small_body *body, double time)
+{
+  vsc_error error;
+  if (solve_to(body, time, &error) != VSC_OK) fail_msg("%s", error.text);
+}
+
+// ---- a free block whose fibres pull
+
+typedef struct pull {
+  double E, K, tension;
+} pull;
+
+// Stretches (l, m, m): E (l-1)/l + T + U'(J) m^2/l = 0 along the fibre, E (m-1)/m + U'(J) l = 0
+// across, as second Piola-Kirchhoff stress.
+static int pull_balance(const gsl_vector *at, void *context, gsl_vector *out)
+{
+  const pull *p = context;
+  const double l = gsl_vector_get(at, 0), m = gsl_vector_get(at, 1), J = l * m * m;
+  const double U = p->K / 2 * (J - 1 / J);
+  gsl_vector_set(out, 0, p->E * (l - 1) / l + p->tension + U * m * m / l);
+  gsl_vector_set(out, 1, p->E * (m - 1) / m + U * l);
+  return GSL_SUCCESS;
+}
+
+static void solve_pull(const pull *p, double stretch[2])
+{
+  gsl_multiroot_fsolver *solver = gsl_multiroot_fsolver_alloc(gsl_multiroot_fsolver_hybrids, 2);
+  gsl_vector *start = gsl_vector_alloc(2);
+  gsl_vector_set_all(start, 1);
+  gsl_multiroot_function f = {pull_balance, 2, (void *)p};
+  gsl_multiroot_fsolver_set(solver, &f, start);
+  for (int k = 0; k < 100 && gsl_multiroot_test_residual(solver->f, 1e-13) != GSL_SUCCESS; k++)
+    gsl_multiroot_fsolver_iterate(solver);
+  for (int i = 0; i < 2; i++) stretch[i] = gsl_vector_get(solver->x, (size_t)i);
+  gsl_multiroot_fsolver_free(solver);
+  gsl_vector_free(start);
+}
+
+static void open_pull(small_body *body, vsc_volume_kind volume, vsc_linear_kind linear)
+{
+  body_open(body, block_of(3, 3, 3, 2, 0.2), 200);
+  hold_symmetry(body);
+  body_fibers(body, (const double[]){1, 0, 0});
+  body->material.stabilization = 30;
+  body->material.active = vsc_default_active();
+  body->material.active.kind = VSC_ACTIVE_TENSION;
+  body->material.active.tension = 15;
+  body->material.active.curve = vsc_default_curve(VSC_CURVE_RAMP);
+  body->material.active.curve.duration = 100;
+  body->definition.volume = volume;
+  body->definition.solve.kind = VSC_SOLVE_EQUILIBRIUM;
+  body->definition.solve.linear = linear;
+  body->definition.solve.tolerance = 1e-12;
+  body_build(body);
+}
+
+// The residual of 1e-12 leaves stretches to some 1e-11 of condition and rounding.
+static void check_pull(const small_body *body, const double stretch[2])
+{
+  for (size_t n = 0; n < body->model->node_count; n++)
+    for (int i = 0; i < 3; i++)
+      assert_close(body->state->x[4 * n + i], stretch[i > 0] * body->model->rest[4 * n + i], 0, 1e-10);
+}
+
+static void a_free_block_takes_the_stretches_of_the_closed_form(void **state)
+{
+  (void)state;
+  for (int volume = VSC_VOLUME_NODAL; volume <= VSC_VOLUME_ELEMENT; volume++)
+    for (int linear = VSC_LINEAR_AUTO; linear <= VSC_LINEAR_ITERATIVE; linear++) {
+      small_body body;
+      double stretch[2];
+      open_pull(&body, (vsc_volume_kind)volume, (vsc_linear_kind)linear);
+      // beside node-averaged volume each frame has Ks
+      const double K = volume == VSC_VOLUME_NODAL ? 230 : 200;
+      must_solve_to(&body, 100);
+      solve_pull(&(pull){20, K, 15}, stretch);
+      assert_true(stretch[0] < 0.8);
+      check_pull(&body, stretch);
+      assert_true(body.state->time == 100);
+      body_close(&body);
+    }
+}
+
+// The ramp's half: on the way, and again from there to the end.
+static void equilibria_follow_the_loads_in_time(void **state)
+{
+  (void)state;
+  small_body body;
+  double stretch[2];
+  open_pull(&body, VSC_VOLUME_ELEMENT, VSC_LINEAR_AUTO);
+  for (int part = 1; part <= 4; part++) {
+    must_solve_to(&body, 25 * part);
+    solve_pull(&(pull){20, 200, 15 * 0.25 * part}, stretch);
+    check_pull(&body, stretch);
+  }
+  body_close(&body);
+}
+
+// ---- Newton's method
+
+static void open_bar(small_body *body, double gravity)
+{
+  body_open(body, block_of(8, 3, 3, 1, 0.2), 60);
+  body_hold(body, "x0", 1, 1, 1);
+  body->definition.gravity[2] = gravity;
+  body->definition.solve.kind = VSC_SOLVE_EQUILIBRIUM;
+  body->definition.solve.linear = VSC_LINEAR_DIRECT;
+  body->definition.solve.tolerance = 1e-13;
+  body_build(body);
+}
+
+// r_{k+1} <= C r_k^2 with one C, once the residual is below 1e-2 and until rounding.
+static void newton_converges_quadratically(void **state)
+{
+  (void)state;
+  small_body body;
+  open_bar(&body, -0.15);
+  must_solve_to(&body, 1);
+  const vsc_newton *newton = vsc_solve_newton(body.model, body.state);
+  int seen = 0;
+  for (size_t k = 1; k < newton->row_count; k++) {
+    const vsc_newton_row *a = &newton->rows[k - 1], *b = &newton->rows[k];
+    if (b->iteration == 0 || a->residual > 1e-2 || a->residual < 1e-7) continue;
+    assert_true(b->residual <= 100 * a->residual * a->residual);
+    seen++;
+
+  }
+  assert_true(seen >= 2);
+  body_close(&body);
+}
+
+// One increment or ten, one linear solver or the other: the same equilibrium, to the tolerance.
+static void equilibrium_does_not_depend_on_the_way(void **state)
+{
+  (void)state;
+  double *first = NULL;
+  for (int way = 0; way < 3; way++) {
+    small_body body;
+    open_bar(&body, -0.15);
+    body.model->solve.linear = way == 1 ? VSC_LINEAR_ITERATIVE : VSC_LINEAR_DIRECT;
+    for (int part = 1; way == 2 && part < 10; part++) must_solve_to(&body, part);
+    must_solve_to(&body, 10);
+    const size_t count = 4 * body.model->node_count;
+    if (way == 0) {
+      first = malloc(count * sizeof *first);
+      memcpy(first, body.state->x, count * sizeof *first);
+      double sunk = 0;
+      for (size_t n = 0; n < count; n += 4)
+        sunk = fmin(sunk, body.state->x[n + 2] - body.model->rest[n + 2]);
+      assert_true(sunk < -2);  // a bar of 8 mm: far from linear
+    }
+    // the bar is some 1e3 times softer in bending than its elements
+    for (size_t i = 0; i < count; i++) assert_close(body.state->x[i], first[i], 0, 1e-8);
+    body_close(&body);
+  }
+  free(first);
+}
+
+// Beyond what the tissue can carry: the last good state stays, and the message has the time.
+static void a_load_too_large_is_told_and_leaves_the_last_good_state(void **state)
+{
+  (void)state;
+  small_body body;
+  vsc_error error;
+  body_open(&body, block_of(4, 2, 2, 1, 0.1), 20);
+  body_hold(&body, "x0", 1, 1, 1);
+  body.definition.gravity[0] = 1e3;
+  body.material.active = vsc_default_active();
+  body.definition.solve.kind = VSC_SOLVE_EQUILIBRIUM;
+  for (int a = 0; a < 3; a++) body.material.axial[a] = body.material.angular[a] = 1e-3;
+  body_build(&body);
+  // against gravity the block is crushed: nothing holds
+  for (size_t i = 0; i < 4 * body.model->node_count; i++) body.model->weight[i] *= -1;
+  assert_int_equal(solve_to(&body, 10, &error), VSC_NUMERICAL);
+  assert_non_null(strstr(error.text, " ms no equilibrium was found: "));
+  uint32_t element;
+  assert_true(vsc_smallest_ratio(body.model, body.state->x, &element) > 0);
+  assert_true(body.state->time < 10);
+  body_close(&body);
+}
+
+static void what_has_no_tangent_is_refused(void **state)
+{
+  (void)state;
+  small_body body;
+  vsc_error error;
+  body_open(&body, block_of(2, 2, 2, 1, 0), 20);
+  body.material.law = VSC_LAW_CLASSICAL;
+  body.material.classical.stiffness = 1;
+  body.definition.solve.kind = VSC_SOLVE_EQUILIBRIUM;
+  body_build(&body);
+  assert_int_equal(solve_to(&body, 1, &error), VSC_INPUT);
+  assert_non_null(strstr(error.text, "solve: explicit"));
+  body_close(&body);
+}
+
+// ---- linear systems
+
+// Each kind solves to the tolerance, and a second time with a factor that is older than the matrix.
+static void linear_systems_are_solved_to_the_tolerance(void **state)
+{
+  (void)state;
+  for (int kind = VSC_LINEAR_AUTO; kind <= VSC_LINEAR_ITERATIVE; kind++) {
+    small_body body;
+    vsc_error error;
+    vsc_tangent *tangent;
+    vsc_linear *linear;
+    open_bar(&body, -0.15);
+    const size_t count = 4 * body.model->node_count;
+    const double *open = body.model->inverse_mass;
+    double *b = malloc(count * sizeof *b), *d = malloc(count * sizeof *d), *y = calloc(count, sizeof *y);
+    uint64_t seed = 7;
+    for (size_t i = 0; i < count; i++) b[i] = any_number(&seed);
+    assert_int_equal(vsc_tangent_create(body.model, &tangent, &error), VSC_OK);
+    assert_int_equal(vsc_linear_create(body.model, tangent, (vsc_linear_kind)kind, &linear, &error), VSC_OK);
+    for (int round = 0; round < 3; round++) {
+      bool indefinite;
+      for (size_t i = 0; i < count; i++)
+        if (open[i] != 0) body.state->x[i] += 0.01 * round * any_number(&seed);
+      vsc_tangent_assemble(body.model, tangent, body.state->x, NULL, 0, 1, 0, &body.state->scratch);
+      assert_int_equal(vsc_linear_solve(linear, tangent, open, body.state->x, b, 1e-9, d, &indefinite,
+                                        &error),
+                       VSC_OK);
+      assert_false(indefinite);
+      vsc_tangent_times(tangent, open, d, y);
+      double rest = 0, whole = 0;
+      for (size_t i = 0; i < count; i++) {
+        if (open[i] == 0) continue;
+        rest += (b[i] - y[i]) * (b[i] - y[i]);
+        whole += b[i] * b[i];
+      }
+      // the residual of conjugate gradients is carried along, and drifts by rounding
+      assert_true(sqrt(rest / whole) < 2e-9);
+      for (size_t i = 0; i < count; i++)
+        if (open[i] == 0) assert_true(d[i] == 0);
+    }
+    const vsc_linear_counts counts = vsc_linear_counted(linear);
+    if (kind == VSC_LINEAR_ITERATIVE) assert_true(counts.factorizations == 0);
+    if (kind == VSC_LINEAR_DIRECT) assert_true(counts.factorizations == 1 && counts.factor_entries > 0);
+    vsc_linear_free(linear);
+    vsc_tangent_free(tangent);
+    free(b);
+    free(d);
+    free(y);
+    body_close(&body);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_free_block_takes_the_stretches_of_the_closed_form),
+      cmocka_unit_test(equilibria_follow_the_loads_in_time),
+      cmocka_unit_test(newton_converges_quadratically),
+      cmocka_unit_test(equilibrium_does_not_depend_on_the_way),
+      cmocka_unit_test(a_load_too_large_is_told_and_leaves_the_last_good_state),
+      cmocka_unit_test(what_has_no_tangent_is_refused),
+      cmocka_unit_test(linear_systems_are_solved_to_the_tolerance),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
