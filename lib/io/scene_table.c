@@ -33,7 +33,13 @@ static const vsc_word schemes[] = {{"generalized_alpha", VSC_SCHEME_GENERALIZED_
                                    {"bdf2", VSC_SCHEME_BDF2},
                                    {NULL, 0}};
 
+static const vsc_word methods[] = {{"newton", VSC_STATICS_NEWTON},
+                                   {"relaxation", VSC_STATICS_RELAXATION},
+                                   {NULL, 0}};
+
 static const vsc_row solver_rows[] = {
+    {"method", CHOICE(vsc_definition, solve.method, methods), .text = "newton",
+     .meaning = "equilibrium: or relaxation (damped steps, no matrix)"},
     {"scheme", CHOICE(vsc_definition, solve.scheme, schemes), .text = "generalized_alpha",
      .meaning = "implicit: or trapezoid, bdf2"},
     {"rho", NUMBER(vsc_definition, solve.rho), .text = "0.5",

@@ -259,9 +259,8 @@ static bool is_taken(const vsc_model *model, const vsc_patch *patch, size_t slot
   return model->mesh_element[slot] != VSC_NO_ELEMENT;
 }
 
-double vsc_limit_bound(const vsc_model *model, vsc_scratch *scratch, size_t *slot)
+void vsc_limit_stiffness(const vsc_model *model, double *stiffness)
 {
-  double *stiffness = scratch->trial, most = 0;
   memset(stiffness, 0, model->node_count * sizeof *stiffness);
   for (size_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];
@@ -271,6 +270,12 @@ double vsc_limit_bound(const vsc_model *model, vsc_scratch *scratch, size_t *slo
     if (vsc_patch_is_solid(patch) && model->materials[patch->material].law != VSC_LAW_CLASSICAL)
       add_cell_stiffness(model, patch, stiffness);
   }
+}
+
+double vsc_limit_bound(const vsc_model *model, vsc_scratch *scratch, size_t *slot)
+{
+  double *stiffness = scratch->trial, most = 0;
+  vsc_limit_stiffness(model, stiffness);
   for (size_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];
     if (patch->family == VSC_SPRINGS_ON_EDGES) continue;

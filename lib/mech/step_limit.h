@@ -21,4 +21,8 @@ void vsc_limit_refresh(const vsc_model *model, vsc_state *state, double time, in
 // K is the mean of the nodes' (the average of J is never stiffer), so that the bound is further off.
 double vsc_limit_bound(const vsc_model *model, vsc_scratch *scratch, size_t *slot);
 
+// A bound of each node's stiffness at rest (node_count, mN/mm): the sum over its elements of their stiffest
+// modulus times sum_q V |B_i|^2.
+void vsc_limit_stiffness(const vsc_model *model, double *stiffness);
+
 #endif

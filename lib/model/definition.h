@@ -221,8 +221,15 @@ typedef enum vsc_scheme {
   VSC_SCHEME_BDF2,
 } vsc_scheme;
 
+// How equilibrium is found.
+typedef enum vsc_statics {
+  VSC_STATICS_NEWTON,      // default
+  VSC_STATICS_RELAXATION,  // damped explicit steps: no matrix
+} vsc_statics;
+
 typedef struct vsc_solve_def {
   vsc_solve_kind kind;
+  vsc_statics method;  // of EQUILIBRIUM
   vsc_linear_kind linear;
   vsc_scheme scheme;
   double rho;        // GENERALIZED_ALPHA: by what the fastest motions decay in each step, 0 to 1; default 0.5

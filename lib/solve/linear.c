@@ -11,7 +11,7 @@
 // factorisation.
 enum { STALE = 30, MOST_ITERATIONS = 1000, LEAST_BUDGET = 100, MOST_PLAIN = 5000 };
 // A factorisation of n unknowns of a compact body costs about as much as n/BUDGET iterations.
-#define BUDGET 16.0
+#define BUDGET 12.0
 // Volume over shear modulus from which diagonal blocks are not worth trying.
 #define STIFF_RATIO 60.0
 

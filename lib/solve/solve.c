@@ -4,9 +4,16 @@
 #include "solve/equilibrium.h"
 #include "solve/explicit.h"
 #include "solve/implicit.h"
+#include "solve/relax.h"
+
+static bool relaxes(const vsc_model *model)
+{
+  return model->solve.kind == VSC_SOLVE_EQUILIBRIUM && model->solve.method == VSC_STATICS_RELAXATION;
+}
 
 vsc_status vsc_solve_start(const vsc_model *model, vsc_state *state, vsc_error *error)
 {
+  if (relaxes(model)) return vsc_relax_start(model, state, error);
   if (model->solve.kind == VSC_SOLVE_EQUILIBRIUM) return vsc_equilibrium_start(model, state, error);
   if (model->solve.kind == VSC_SOLVE_IMPLICIT) return vsc_implicit_start(model, state, error);
   return vsc_start(model, state, error);
@@ -14,6 +21,7 @@ vsc_status vsc_solve_start(const vsc_model *model, vsc_state *state, vsc_error *
 
 vsc_status vsc_solve_to(const vsc_model *model, vsc_state *state, double until, vsc_error *error)
 {
+  if (relaxes(model)) return vsc_relax_to(model, state, until, error);
   if (model->solve.kind == VSC_SOLVE_EQUILIBRIUM)
     return vsc_equilibrium_to(model, state, until, error);
   if (model->solve.kind == VSC_SOLVE_IMPLICIT) return vsc_implicit_to(model, state, until, error);
@@ -23,5 +31,5 @@ vsc_status vsc_solve_to(const vsc_model *model, vsc_state *state, double until, 
 vsc_newton *vsc_solve_newton(const vsc_model *model, vsc_state *state)
 {
   if (model->solve.kind == VSC_SOLVE_IMPLICIT) return vsc_implicit_newton(state);
-  return model->solve.kind == VSC_SOLVE_EQUILIBRIUM ? state->solver : NULL;
+  return model->solve.kind == VSC_SOLVE_EQUILIBRIUM && !relaxes(model) ? state->solver : NULL;
 }

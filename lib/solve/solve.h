@@ -7,10 +7,10 @@
 #include "solve/newton.h"
 
 // Prepares a new state at time 0: vsc_start of the explicit method, vsc_implicit_start,
-// vsc_equilibrium_start.
+// vsc_equilibrium_start, vsc_relax_start.
 vsc_status vsc_solve_start(const vsc_model *model, vsc_state *state, vsc_error *error);
 
-// Moves the state on to `until` (ms): vsc_advance, vsc_implicit_to, vsc_equilibrium_to. After a failure the state is the
+// Moves the state on to `until` (ms): vsc_advance, vsc_implicit_to, vsc_equilibrium_to, vsc_relax_to. After a failure the state is the
 // last good one of the method, or as the explicit method left it.
 vsc_status vsc_solve_to(const vsc_model *model, vsc_state *state, double until, vsc_error *error);
 

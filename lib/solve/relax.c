@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/relax.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "mech/force.h"
+#include "mech/step_limit.h"
+
+enum { MOST_STEPS = 200000, RAMP_STEPS = 200, REFRESH = 200, REFRESH_IN_RAMP = 20, ITERATIONS = 8 };
+
+// The model with masses for relaxation; everything else is the model's own.
+typedef struct relaxer {
+  vsc_model model;
+  double *mass, *inverse_mass;
+  double *before;  // forces of the step before
+} relaxer;
+
+static void release(void *solver)
+{
+  relaxer *r = solver;
+  vsc_free(r->mass);
+  vsc_free(r->inverse_mass);
+  vsc_free(r->before);
+  vsc_free(r);
+}
+
+vsc_status vsc_relax_start(const vsc_model *model, vsc_state *state, vsc_error *error)
+{
+  relaxer *r;
+  if (!VSC_NEW(r, 1)) return vsc_fail_memory(error, "relaxation");
+  if (!VSC_NEW(r->mass, model->node_count) || !VSC_NEW(r->inverse_mass, 4 * model->node_count) ||
+      !VSC_NEW(r->before, 4 * model->node_count)) {
+    release(r);
+    return vsc_fail_memory(error, "relaxation");
+  }
+  vsc_limit_stiffness(model, r->mass);
+  for (size_t n = 0; n < model->node_count; n++)
+    for (size_t i = 4 * n; i < 4 * n + 4; i++)
+      if (model->inverse_mass[i] != 0) r->inverse_mass[i] = 1 / r->mass[n];
+  r->model = *model;
+  r->model.mass = r->mass;
+  r->model.inverse_mass = r->inverse_mass;
+  state->solver = r;
+  state->release_solver = release;
+  return VSC_OK;
+}
+
+// Loads between the two times, part 1 being the end.
+typedef struct ramp {
+  double start, way, load;
+} ramp;
+
+static double time_at(const ramp *p, double step, vsc_state *state)
+{
+  const double part = fmin(step / RAMP_STEPS, 1);
+  state->scratch.load = p->load + part * (1 - p->load);
+  return p->start + part * p->way;
+}
+
+static double square(const vsc_model *model, const double *a, bool all)
+{
+  double sum = 0;
+  for (size_t n = 0; n < model->node_count; n++)
+    for (size_t i = 4 * n; i < 4 * n + 3; i++)
+      if (all || model->inverse_mass[i] != 0) sum += a[i] * a[i];
+  return sum;
+}
+
+// One step; the forces at the new positions are in state->force.
+static void step(const relaxer *r, vsc_state *state, double time, double h, double *damping)
+{
+  const vsc_model *model = &r->model;
+  double *x = state->x, *v = state->v, *force = state->force, stiff = 0, moving = 0;
+  for (size_t i = 0; i < 4 * model->node_count; i++) {
+    v[i] = ((2 - *damping * h) * v[i] + 2 * h * model->inverse_mass[i] * force[i]) / (2 + *damping * h);
+    x[i] += h * v[i];
+  }
+  memcpy(r->before, force, 4 * model->node_count * sizeof *force);
+  vsc_force(model, x, NULL, time, &state->scratch, force);
+  for (size_t i = 0; i < 4 * model->node_count; i++) {
+    stiff += v[i] * (r->before[i] - force[i]);
+    moving += v[i] * v[i] * model->mass[i / 4];
+  }
+  *damping = moving > 0 ? 2 * sqrt(fmax(stiff, 0) / (h * moving)) : 0;
+}
+
+vsc_status vsc_relax_to(const vsc_model *model, vsc_state *state, double until, vsc_error *error)
+{
+  relaxer *r = state->solver;
+  const ramp loads = {state->time, until - state->time, state->steps > 0 ? 1 : 0};
+  const double tolerance = model->solve.tolerance;
+  double scale = 0, damping = 0;
+  memset(state->v, 0, 4 * model->node_count * sizeof *state->v);
+  state->limit.step = 0;
+  for (double k = 0; k < MOST_STEPS; k++) {
+    const double time = time_at(&loads, k, state);
+    const double interval = k <= RAMP_STEPS ? REFRESH_IN_RAMP : REFRESH;
+    if (fmod(k, interval) == 0) {
+      vsc_limit_refresh(&r->model, state, time, ITERATIONS);
+      vsc_force(model, state->x, NULL, time, &state->scratch, state->force);
+    }
+    step(r, state, time, state->limit.step, &damping);
+    scale = fmax(scale, square(model, state->force, true));
+    const double rest = square(model, state->force, false);
+    if (!isfinite(rest)) break;
+    if (k < RAMP_STEPS || rest > tolerance * tolerance * scale) continue;
+    memset(state->v, 0, 4 * model->node_count * sizeof *state->v);
+    state->time = until;
+    state->steps++;
+    return VSC_OK;
+  }
+  return vsc_fail(error, VSC_NUMERICAL,
+                  "at %.6g ms no equilibrium was found: relaxation has not come to rest in %d steps; "
+                  "use solver.method: newton, or a larger solver.tolerance",
+                  until, MOST_STEPS);
+}
