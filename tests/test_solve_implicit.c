@@ -193,12 +193,79 @@ static void a_stop_does_not_change_the_bits(void **state)
   }
 }
 
+// Free fall: rows of the consistent mass matrix sum to the lumped masses, so that all nodes have the
+// acceleration of gravity, and the trapezoid follows a parabola exactly.
+static void a_free_body_falls_with_consistent_masses(void **state)
+{
+  (void)state;
+  small_body body;
+  vsc_error error;
+  open_swing(&body, false);
+  body.definition.support_count = 0;
+  body.definition.masses = VSC_MASS_CONSISTENT;
+  body.definition.solve.kind = VSC_SOLVE_IMPLICIT;
+  body.definition.solve.scheme = VSC_SCHEME_TRAPEZOID;
+  body.definition.solve.tolerance = 1e-12;
+  body.definition.step = 1;
+  run_to(&body, 10);
+  for (size_t n = 0; n < body.model->node_count; n++)
+    for (int i = 0; i < 3; i++)
+      assert_close(body.state->x[4 * n + i], body.model->rest[4 * n + i] - (i == 2 ? 0.03 * 50 : 0), 0, 1e-9);
+  body_close(&body);
+  // explicit steps know no such masses
+  body = (small_body){0};
+  open_swing(&body, false);
+  body.definition.masses = VSC_MASS_CONSISTENT;
+  assert_int_equal(vsc_model_build(body.mesh, NULL, &body.definition, &body.model, &error), VSC_INPUT);
+  assert_non_null(strstr(error.text, "masses: lumped"));
+  body_close(&body);
+}
+
+// One tet fixed at three corners: omega^2 = V C/(L^2 m) with m = rho V/10 in place of rho V/4; an angle
+// of 2 atan(omega dt/2) in each step of the trapezoid.
+static void a_corner_swings_with_its_own_mass(void **state)
+{
+  (void)state;
+  static const double nodes[12] = {0, 0, 0, 3, 0, 0, 0, 3, 0, 0, 0, 2};
+  static const uint32_t tet[4] = {0, 1, 2, 3};
+  small_body body;
+  vsc_error error;
+  vsc_mesh *mesh;
+  assert_int_equal(vsc_mesh_from_arrays(4, nodes, 1, tet, &mesh, NULL), VSC_OK);
+  static const char *const names[] = {"foot", "top"};
+  for (int a = 0; a < 2; a++) {
+    vsc_array *array = vsc_arrays_add(&mesh->node_data, names[a], 1, 4);
+    for (int n = 0; n < 4; n++) array->values[n] = (n == 3) == a;
+  }
+  body_open(&body, mesh, NO_VOLUME);
+  body_hold(&body, "foot", 1, 1, 1);
+  body_hold(&body, "top", 1, 1, 0);
+  body.definition.masses = VSC_MASS_CONSISTENT;
+  body.definition.solve.kind = VSC_SOLVE_IMPLICIT;
+  body.definition.solve.scheme = VSC_SCHEME_TRAPEZOID;
+  body.definition.solve.tolerance = 1e-12;
+  const double omega = sqrt(10 * 20 / (1.0 * 2 * 2)), dt = 0.2 / omega;
+  body.definition.step = dt;
+  body_build(&body);
+  double *height = body.state->x + 4 * body_node(&body, 3) + 2;
+  *height += 0.1;
+  assert_int_equal(vsc_solve_start(body.model, body.state, &error), VSC_OK);
+  for (int n = 1; n <= 40; n++) {
+    assert_int_equal(vsc_solve_to(body.model, body.state, n * dt, &error), VSC_OK);
+    // the trapezoid turns by 2 atan(omega dt/2) a step, exactly
+    assert_close(*height - 2, 0.1 * cos(n * 2 * atan(omega * dt / 2)), 0, 1e-9);
+  }
+  body_close(&body);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(schemes_are_of_second_order),
       cmocka_unit_test(energy_is_kept_or_damped_as_the_scheme_says),
       cmocka_unit_test(steps_follow_the_accuracy),
+      cmocka_unit_test(a_free_body_falls_with_consistent_masses),
+      cmocka_unit_test(a_corner_swings_with_its_own_mass),
       cmocka_unit_test(a_stop_does_not_change_the_bits),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

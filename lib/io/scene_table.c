@@ -103,6 +103,7 @@ static const vsc_word volumes[] = {{"nodal", VSC_VOLUME_NODAL},
 static const vsc_word mass_kinds[] = {{"lumped", VSC_MASS_LUMPED},
                                       {"voronoi", VSC_MASS_VORONOI},
                                       {"equal", VSC_MASS_EQUAL},
+                                      {"consistent", VSC_MASS_CONSISTENT},
                                       {NULL, 0}};
 static const vsc_word kept_volumes[] = {
     {"none", VSC_KEEP_NONE}, {"total", VSC_KEEP_TOTAL},     {"region", VSC_KEEP_REGION},
@@ -128,7 +129,7 @@ static const vsc_row vsc_scene_group_rows[] = {
     {"keep_volume", CHOICE(vsc_scene, definition.kept_volume, kept_volumes), .text = "none",
      .meaning = "to rounding, by multipliers: total, region (each material), node, element"},
     {"masses", CHOICE(vsc_scene, definition.masses, mass_kinds), .text = "lumped",
-     .meaning = "of the nodes; or voronoi: of what is nearest; equal: all alike"},
+     .meaning = "of the nodes; or voronoi: of what is nearest; equal: all alike; consistent (solve: implicit)"},
     {"membranes", SCENE_PARTS(membranes, membrane_count, vsc_membrane_group), .commented = true,
      .meaning = "sheets on surfaces: capsule, valve, cloth"},
     {"obstacles", SCENE_PARTS(obstacles, obstacle_count, vsc_obstacle_group), .commented = true,

@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "mech/force.h"
 #include "mech/kernel.h"
+#include "mech/mass_matrix.h"
 #include "model/law_volume.h"
 
 enum { MOST_PAIRS = VSC_MOST_CORNERS * (VSC_MOST_CORNERS + 1) / 2 };
@@ -180,6 +181,8 @@ vsc_status vsc_tangent_create(const vsc_model *model, vsc_tangent **tangent, vsc
               find_places(model, made) && color_patches(model, made);
   made->preconditioner = made->matrix;
   if (good && model->terms.nodal_volume) good = list_groups(model, made);
+  if (good && model->masses == VSC_MASS_CONSISTENT)
+    good = vsc_mass_matrix(model, &made->matrix, &made->masses);
   vsc_free(group);
   vsc_free(nodes);
   if (!good) {
@@ -199,6 +202,7 @@ void vsc_tangent_free(vsc_tangent *tangent)
   vsc_free(tangent->color_start);
   vsc_free(tangent->colored);
   if (tangent->group_start != NULL) vsc_free(tangent->preconditioner.values);
+  vsc_free(tangent->masses);
   vsc_free(tangent->group_start);
   vsc_free(tangent->group_node);
   vsc_free(tangent->group_gradient);
@@ -384,15 +388,6 @@ void vsc_tangent_precondition(const vsc_model *model, vsc_tangent *tangent, cons
   memcpy(tangent->preconditioner.values, tangent->matrix.values,
          9 * tangent->matrix.start[model->node_count] * sizeof(double));
   for_sharing_tets(model, tangent, x, add_tet_to_preconditioner);
-}
-
-void vsc_tangent_add_masses(const vsc_model *model, vsc_tangent *tangent, double factor)
-{
-  for (size_t n = 0; n < model->node_count; n++) {
-    size_t stride;
-    double *block = vsc_block_at(&tangent->matrix, n, tangent->matrix.start[n], &stride);
-    for (size_t i = 0; i < 3; i++) block[stride * i + i] += factor * model->mass[n];
-  }
 }
 
 // ---- products

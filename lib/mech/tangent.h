@@ -22,6 +22,7 @@ typedef struct vsc_tangent {
   size_t color_count;
   uint32_t *color_start;     // color_count + 1; owned
   uint32_t *colored;         // patches by colour: those of one colour share no node; owned
+  double *masses;            // int rho N_i N_j dV of each block of the matrix, mg; NULL: lumped; owned
   // node-averaged volume: group n's gradient d v_n/dx_i for the nodes i of its tets
   size_t *group_start;       // node_count + 1; NULL without; owned
   uint32_t *group_node;      // owned
@@ -42,8 +43,11 @@ void vsc_tangent_assemble(const vsc_model *model, vsc_tangent *tangent, const do
                           const double *w, double time, double stiffness_factor,
                           double damping_factor, vsc_scratch *scratch);
 
-// Adds factor times the lumped masses to the diagonal; factor in 1/ms^2.
+// Adds factor (1/ms^2) times the mass matrix to the tangent, and y += factor (any unit) times the mass
+// matrix times a (node_count x 4).
 void vsc_tangent_add_masses(const vsc_model *model, vsc_tangent *tangent, double factor);
+void vsc_tangent_masses_times(const vsc_model *model, const vsc_tangent *tangent, double factor,
+                              const double *a, double *y);
 
 // Fills the preconditioner from the tangent that was assembled last, at x.
 void vsc_tangent_precondition(const vsc_model *model, vsc_tangent *tangent, const double *x);

@@ -201,6 +201,7 @@ static void hash_model(vsc_model *model)
   hash = vsc_hash(hash, model->gravity, sizeof model->gravity);
   hash = vsc_hash(hash, &model->step, sizeof model->step);
   hash = vsc_hash(hash, &model->safety, sizeof model->safety);
+  hash = vsc_hash(hash, &model->masses, sizeof model->masses);
   model->hash = vsc_hash(hash, &model->solve, sizeof model->solve);
 }
 
@@ -293,6 +294,7 @@ static vsc_status build(const vsc_mesh *mesh, const vsc_axes *axes,
   model->force_step = definition->force_step;
   model->safety = definition->safety;
   model->solve = definition->solve;
+  model->masses = definition->masses;
   vsc_status status = assign_materials(mesh, definition, material_of, error);
   if (status == VSC_OK) status = build_materials(definition, model, error);
   if (status == VSC_OK) status = vsc_terms_selections(mesh, definition, model, error);

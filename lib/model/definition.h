@@ -154,6 +154,8 @@ typedef enum vsc_mass_kind {
   VSC_MASS_LUMPED,   // row sums of the consistent mass: a quarter of a tet to each corner (default)
   VSC_MASS_VORONOI,  // what of the body is nearest to the node (model/masses.h)
   VSC_MASS_EQUAL,    // all nodes alike, the same total
+  VSC_MASS_CONSISTENT,  // int rho N_i N_j dV, which joins nodes; for solve implicit only. What else is
+                        // told by masses (weight, momentum) takes the lumped ones
 } vsc_mass_kind;
 
 // Volumes that are kept to rounding by Lagrange multipliers, beside the volume energy.

@@ -383,6 +383,8 @@ vsc_status vsc_definition_check(const vsc_definition *d, vsc_error *error)
   need_not_negative(&c, "time.step", d->step, "ms");
   need(&c, d->safety > 0 && d->safety <= 1, "time.safety", d->safety, "",
        "give a fraction above 0 and up to 1");
+  need(&c, d->masses != VSC_MASS_CONSISTENT || d->solve.kind == VSC_SOLVE_IMPLICIT, "masses",
+       (double)d->masses, "(consistent)", "take masses: lumped, or solve: implicit");
   need(&c, d->solve.rho >= 0 && d->solve.rho <= 1, "solver.rho", d->solve.rho, "",
        "give a number from 0 to 1");
   need(&c, d->solve.accuracy > 0 && d->solve.accuracy < 0.1, "solver.accuracy", d->solve.accuracy, "",

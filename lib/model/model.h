@@ -252,6 +252,7 @@ typedef struct vsc_model {
   bool force_step;     // taken even above the stable step
   double safety;
   vsc_solve_def solve;
+  vsc_mass_kind masses;
   double total_mass;    // mg
   double total_volume;  // mm^3
   uint64_t hash;        // of everything above: two models with equal hashes move alike

@@ -23,7 +23,7 @@ typedef struct stepper {
   vsc_newton *newton;
   vsc_implicit_counts counts;
   double *h_a, *h_v;          // node_count x 4
-  double *middle, *velocity;  // where forces balance
+  double *middle, *velocity, *middle_a;  // where forces balance
   double *next;               // x_1
 } stepper;
 
@@ -35,6 +35,7 @@ static void release(void *solver)
   vsc_free(s->h_v);
   vsc_free(s->middle);
   vsc_free(s->velocity);
+  vsc_free(s->middle_a);
   vsc_free(s->next);
   vsc_free(s);
 }
@@ -49,6 +50,21 @@ vsc_implicit_counts vsc_implicit_counted(const vsc_state *state)
   return ((const stepper *)state->solver)->counts;
 }
 
+// M a = f
+static vsc_status first_acceleration(const vsc_model *model, vsc_state *state, vsc_newton *newton,
+                                     vsc_error *error)
+{
+  bool indefinite;
+  vsc_force(model, state->x, state->v, state->time, &state->scratch, state->force);
+  for (size_t i = 0; i < 4 * model->node_count; i++)
+    state->a[i] = model->inverse_mass[i] * state->force[i];
+  if (model->masses != VSC_MASS_CONSISTENT) return VSC_OK;
+  vsc_tangent_assemble(model, newton->tangent, state->x, NULL, state->time, 0, 0, &state->scratch);
+  vsc_tangent_add_masses(model, newton->tangent, 1);
+  return vsc_linear_solve(newton->linear, newton->tangent, model->inverse_mass, state->x, state->force,
+                          1e-12, state->a, &indefinite, error);
+}
+
 vsc_status vsc_implicit_start(const vsc_model *model, vsc_state *state, vsc_error *error)
 {
   const size_t count = 4 * model->node_count;
@@ -57,7 +73,7 @@ vsc_status vsc_implicit_start(const vsc_model *model, vsc_state *state, vsc_erro
   vsc_status status = vsc_newton_create(model, &s->newton, error);
   if (status == VSC_OK &&
       (!VSC_NEW(s->h_a, count) || !VSC_NEW(s->h_v, count) || !VSC_NEW(s->middle, count) ||
-       !VSC_NEW(s->velocity, count) || !VSC_NEW(s->next, count)))
+       !VSC_NEW(s->velocity, count) || !VSC_NEW(s->middle_a, count) || !VSC_NEW(s->next, count)))
     status = vsc_fail_memory(error, "implicit steps");
   if (status != VSC_OK) {
     release(s);
@@ -66,9 +82,7 @@ vsc_status vsc_implicit_start(const vsc_model *model, vsc_state *state, vsc_erro
   state->solver = s;
   state->release_solver = release;
   state->limit.step = model->step > 0 ? model->step : fmin(FIRST_STEP, model->end_time);
-  vsc_force(model, state->x, state->v, state->time, &state->scratch, state->force);
-  for (size_t i = 0; i < count; i++) state->a[i] = model->inverse_mass[i] * state->force[i];
-  return VSC_OK;
+  return first_acceleration(model, state, s->newton, error);
 }
 
 // ---- one step
@@ -125,10 +139,10 @@ static void residual(void *context, const double *x, double *r)
     p->s->velocity[i] = part * (c->V * x[i] + p->s->h_v[i]) + c->force_past * state->v[i];
   }
   vsc_force(p->model, p->s->middle, p->s->velocity, p->time, &p->state->scratch, r);
-  for (size_t n = 0; n < p->model->node_count; n++)
-    for (size_t i = 4 * n; i < 4 * n + 3; i++)
-      r[i] -= p->model->mass[n] *
-              ((1 - c->mass_past) * (c->A * x[i] + p->s->h_a[i]) + c->mass_past * state->a[i]);
+  double *a = p->s->middle_a;
+  for (size_t i = 0; i < 4 * p->model->node_count; i++)
+    a[i] = (1 - c->mass_past) * (c->A * x[i] + p->s->h_a[i]) + c->mass_past * state->a[i];
+  vsc_tangent_masses_times(p->model, p->s->newton->tangent, -1, a, r);
 }
 
 // (1 - f) (K + V C) + (1 - m) A M
