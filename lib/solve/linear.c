@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 #include <suitesparse/cholmod.h>
+#include <unistd.h>
 
 #include "base/mem.h"
 
@@ -12,6 +13,7 @@
 enum { STALE = 30, MOST_ITERATIONS = 1000, LEAST_BUDGET = 100, MOST_PLAIN = 5000 };
 // A factorisation of n unknowns of a compact body costs about as much as n/BUDGET iterations.
 #define BUDGET 12.0
+#define MOST_MEMORY 0.7  // of the machine's that a factor may take
 // Volume over shear modulus from which diagonal blocks are not worth trying.
 #define STIFF_RATIO 60.0
 
@@ -178,6 +180,21 @@ static bool analyze(vsc_linear *linear, const vsc_block_matrix *matrix)
   return good;
 }
 
+// Whether the factor would take most of the machine's memory.
+static bool is_too_large(const vsc_linear *linear)
+{
+  const double memory = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGE_SIZE);
+  return linear->counts.factor_entries * sizeof(double) > MOST_MEMORY * memory;
+}
+
+static vsc_status fail_size(const vsc_linear *linear, vsc_error *error)
+{
+  return vsc_fail(error, VSC_SYSTEM,
+                  "the factor of the tangent, %.3g GB, does not fit into memory; take solver.linear: "
+                  "iterative, or auto",
+                  8e-9 * linear->counts.factor_entries);
+}
+
 static vsc_status factorize(vsc_linear *linear, vsc_tangent *tangent, const double *free,
                             const double *x, vsc_error *error)
 {
@@ -186,16 +203,15 @@ static vsc_status factorize(vsc_linear *linear, vsc_tangent *tangent, const doub
   const double largest = vsc_block_matrix_largest(&tangent->matrix, free);
   vsc_tangent_precondition(linear->model, tangent, x);
   vsc_block_matrix_hold(&tangent->preconditioner, free, largest);
-  if (!analyze(linear, &tangent->preconditioner))
-    return vsc_fail_memory(error, "the factor of the tangent; take linear: iterative");
+  if (!analyze(linear, &tangent->preconditioner) || is_too_large(linear))
+    return fail_size(linear, error);
   linear->view.x = tangent->preconditioner.values;
   double shift[2] = {0, 0};
   linear->factorized = false;
   for (int k = 0; k <= MOST_SHIFTS; k++) {
     linear->counts.factorizations++;
     const bool done = cholmod_factorize_p(&linear->view, shift, NULL, 0, linear->factor, common);
-    if (!done && common->status == CHOLMOD_OUT_OF_MEMORY)
-      return vsc_fail_memory(error, "the factor of the tangent; take linear: iterative");
+    if (!done && common->status == CHOLMOD_OUT_OF_MEMORY) return fail_size(linear, error);
     if (done && common->status == CHOLMOD_OK) {
       linear->factorized = true;
       return VSC_OK;
@@ -298,6 +314,19 @@ static outcome iterate(vsc_linear *linear, const vsc_tangent *tangent, const dou
   return SLOW;
 }
 
+// With diagonal blocks, as long as their budget lasts; false: not solved.
+static bool solve_plainly(vsc_linear *linear, vsc_tangent *tangent, const double *free,
+                          const double *b, double tolerance, double *d, bool *indefinite)
+{
+  const double before = linear->counts.iterations;
+  invert_blocks(linear, &tangent->matrix);
+  const outcome end =
+      iterate(linear, tangent, free, b, tolerance, fmin(linear->plain_left, MOST_PLAIN), d);
+  linear->plain_left -= linear->counts.iterations - before;
+  *indefinite = end == NEGATIVE;
+  return end == CONVERGED || linear->plain_left == INFINITY;
+}
+
 vsc_status vsc_linear_solve(vsc_linear *linear, vsc_tangent *tangent, const double *free,
                             const double *x, const double *b, double tolerance, double *d,
                             bool *indefinite, vsc_error *error)
@@ -305,22 +334,18 @@ vsc_status vsc_linear_solve(vsc_linear *linear, vsc_tangent *tangent, const doub
   *indefinite = false;
   vsc_block_matrix_hold(&tangent->matrix, free, vsc_block_matrix_largest(&tangent->matrix, free));
   memset(linear->p, 0, 4 * linear->model->node_count * sizeof *linear->p);
-  if (!linear->factorized && linear->plain_left > 0) {
-    const double before = linear->counts.iterations;
-    invert_blocks(linear, &tangent->matrix);
-    const outcome plain = iterate(linear, tangent, free, b, tolerance,
-                                  fmin(linear->plain_left, MOST_PLAIN), d);
-    linear->plain_left -= linear->counts.iterations - before;
-    if (plain == CONVERGED) return VSC_OK;
-    if (linear->kind == VSC_LINEAR_ITERATIVE) {
-      *indefinite = plain == NEGATIVE;
-      return VSC_OK;
-    }
-  }
+  if (!linear->factorized && linear->plain_left > 0 &&
+      solve_plainly(linear, tangent, free, b, tolerance, d, indefinite))
+    return VSC_OK;
   if (linear->factorized &&
       iterate(linear, tangent, free, b, tolerance, linear->with_fresh + STALE, d) == CONVERGED)
     return VSC_OK;
   const vsc_status status = factorize(linear, tangent, free, x, error);
+  if (status == VSC_SYSTEM && linear->kind == VSC_LINEAR_AUTO) {
+    linear->budget = linear->plain_left = INFINITY;
+    solve_plainly(linear, tangent, free, b, tolerance, d, indefinite);
+    return VSC_OK;
+  }
   if (status != VSC_OK) return status;
   const double before = linear->counts.iterations;
   *indefinite = iterate(linear, tangent, free, b, tolerance, MOST_ITERATIONS, d) == NEGATIVE;

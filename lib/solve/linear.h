@@ -28,7 +28,8 @@ void vsc_linear_forget(vsc_linear *linear);
 
 // d with |b - A d| <= tolerance |b| for the tangent as assembled at x, unknowns with `free` 0 held at
 // 0 (all node_count x 4). VSC_NUMERICAL when A is not positive definite, even with up to 10 % of its
-// largest diagonal added, or the factor does not fit into memory. Then and otherwise *indefinite
+// largest diagonal added; VSC_SYSTEM when the factor does not fit into memory (with AUTO diagonal blocks
+// do the rest then). *indefinite
 // tells whether a direction of negative curvature was met.
 vsc_status vsc_linear_solve(vsc_linear *linear, vsc_tangent *tangent, const double *free,
                             const double *x, const double *b, double tolerance, double *d,
