@@ -74,7 +74,7 @@ vsc_status vsc_fiber_describe(const vsc_axes *axes, vsc_fiber_report *report, vs
   size_t known = 0;
   for (size_t e = 0; e < axes->count; e++)
     if (axes->known[e]) {
-      vsc_fiber_angles(&axes->frames[9 * e], &azimuth[known], &elevation[known]);
+      vsc_fiber_angles(vsc_axes_frame(axes, e, 0), &azimuth[known], &elevation[known]);
       known++;
     }
   percentiles(azimuth, known, report->azimuth);

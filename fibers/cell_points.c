@@ -64,7 +64,7 @@ void vsc_cell_points_fill(vsc_cell kind, vsc_cell_points *points)
 {
   double xi[VSC_CELL_POINTS][3];
   int count;
-  if (kind == VSC_TET)
+  if (kind == VSC_TET || kind == VSC_TET10)
     count = fill_tet(xi);
   else if (kind == VSC_WEDGE)
     count = fill_wedge(xi);

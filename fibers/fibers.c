@@ -66,7 +66,7 @@ static bool all_parallel(const vsc_axes *axes)
   size_t others = 0;
   for (size_t e = 0; e < axes->count; e++) {
     if (!axes->known[e]) continue;
-    const double *fiber = &axes->frames[9 * e];
+    const double *fiber = vsc_axes_frame(axes, e, 0);
     if (first == NULL) {
       first = fiber;
       continue;
@@ -79,11 +79,58 @@ static bool all_parallel(const vsc_axes *axes)
   return others > 0;
 }
 
+// The vectors of a node array of that name, or NULL.
+static const double *node_vectors(const vsc_mesh *mesh, const char *name)
+{
+  const vsc_array *array = vsc_arrays_find(&mesh->node_data, name);
+  return array != NULL && array->components == 3 ? array->values : NULL;
+}
+
+// Vectors on an element's nodes at point q, sum_i N_i v_i, all turned to the side of the first.
+static void interpolate(const vsc_mesh *mesh, size_t element, const double *N, const double *vectors,
+                        double v[3])
+{
+  const uint32_t *corner = vsc_mesh_corners(mesh, element);
+  const double *first = vectors + 3 * (size_t)corner[0];
+  for (int a = 0; a < 3; a++) v[a] = 0;
+  for (int i = 0; i < vsc_mesh_kind(mesh, element)->corners; i++) {
+    const double *own = vectors + 3 * (size_t)corner[i];
+    const double part = vsc_dot(own, first) < 0 ? -N[i] : N[i];
+    for (int a = 0; a < 3; a++) v[a] += part * own[a];
+  }
+}
+
+// Fibres from vectors on the nodes of quadratic tets, at each of their points.
+static void from_nodes(const vsc_mesh *mesh, const double *fibers, const double *sheets,
+                       vsc_axes *axes, vsc_fiber_report *report)
+{
+  const vsc_cell_rule rule = vsc_cell_rule_of(VSC_TET10);
+  for (size_t e = 0; e < mesh->element_count; e++) {
+    int known = 1;
+    for (int q = 0; q < axes->points; q++) {
+      double fiber[3], sheet[3];
+      interpolate(mesh, e, rule.N[q], fibers, fiber);
+      if (sheets != NULL) interpolate(mesh, e, rule.N[q], sheets, sheet);
+      known &= vsc_axes_complete(fiber, sheets != NULL ? sheet : NULL, vsc_axes_frame(axes, e, q));
+      if (known && sheets != NULL && q == 0) judge_sheet(fiber, sheet, report);
+    }
+    vsc_axes_finish(axes, e, known);
+    report->invalid += !known;
+  }
+  report->constant = all_parallel(axes);
+}
+
 static vsc_status from_arrays(const vsc_mesh *mesh, const vsc_fiber_def *definition, vsc_axes *axes,
                               vsc_fiber_report *report, vsc_error *error)
 {
   const double *fibers, *sheets = NULL;
   const char *name = definition->sheet_array;
+  const double *on_nodes = node_vectors(mesh, definition->fiber_array);
+  if (vsc_mesh_is_quadratic(mesh) && on_nodes != NULL &&
+      vsc_arrays_find(&mesh->element_data, definition->fiber_array) == NULL) {
+    from_nodes(mesh, on_nodes, node_vectors(mesh, name), axes, report);
+    return VSC_OK;
+  }
   vsc_status status = find_vectors(mesh, definition->fiber_array, "fibre", &fibers, error);
   if (status != VSC_OK) return status;
   const bool optional =
@@ -92,7 +139,7 @@ static vsc_status from_arrays(const vsc_mesh *mesh, const vsc_fiber_def *definit
   if (status != VSC_OK) return status;
   for (size_t e = 0; e < mesh->element_count; e++) {
     const double *sheet = sheets == NULL ? NULL : &sheets[3 * e];
-    axes->known[e] = vsc_axes_complete(&fibers[3 * e], sheet, &axes->frames[9 * e]) != 0;
+    vsc_axes_set(axes, e, &fibers[3 * e], sheet);
     if (!axes->known[e])
       report->invalid++;
     else if (sheet != NULL)
@@ -149,7 +196,7 @@ vsc_status vsc_fibers_make(const vsc_mesh *mesh, const vsc_fiber_def *definition
                            vsc_fiber_report *report, vsc_error *error)
 {
   *report = (vsc_fiber_report){0};
-  vsc_axes *axes = vsc_axes_create(mesh->element_count);
+  vsc_axes *axes = vsc_axes_create_for(mesh);
   if (axes == NULL) return vsc_fail_memory(error, "the fibre axes");
   vsc_status status = from_source(mesh, definition, surfaces, surface_count, axes, report, error);
   const bool fills = definition->source == VSC_FIBER_MAP || definition->source == VSC_FIBER_ARRAYS;

@@ -13,8 +13,11 @@ static bool mean_of_neighbours(const vsc_axes *axes, const int32_t neighbours[VS
   double fibers[6] = {0}, sheets[6] = {0}, fiber[3], sheet[3];
   for (int i = 0; i < VSC_MOST_FACES; i++) {
     if (neighbours[i] < 0 || !axes->known[neighbours[i]]) continue;
-    vsc_add_square(&axes->frames[9 * (size_t)neighbours[i]], 1, fibers);
-    vsc_add_square(&axes->frames[9 * (size_t)neighbours[i] + 3], 1, sheets);
+    for (int q = 0; q < axes->points; q++) {
+      const double *f = vsc_axes_frame(axes, (size_t)neighbours[i], q);
+      vsc_add_square(f, 1, fibers);
+      vsc_add_square(f + 3, 1, sheets);
+    }
   }
   if (!vsc_top_axis(fibers, fiber, NULL) || !vsc_top_axis(sheets, sheet, NULL)) return false;
   return vsc_axes_complete(fiber, sheet, frame) != 0;
@@ -56,7 +59,8 @@ vsc_status vsc_fibers_fill(const vsc_mesh *mesh, vsc_axes *axes, size_t *filled,
     if (!axes->known[e]) open[open_count++] = (uint32_t)e;
   while (status == VSC_OK && (found = split_ring(axes, &topology, open, &open_count, ring)) > 0) {
     for (size_t k = 0; k < found; k++)
-      mean_of_neighbours(axes, topology.neighbours[ring[k]], &axes->frames[9 * (size_t)ring[k]]);
+      for (int q = 0; q < axes->points; q++)
+        mean_of_neighbours(axes, topology.neighbours[ring[k]], vsc_axes_frame(axes, ring[k], q));
     for (size_t k = 0; k < found; k++) axes->known[ring[k]] = 1;
     *filled += found;
   }

@@ -50,6 +50,25 @@ static double shape_gradients(const vsc_mesh *mesh, const uint32_t node[4], doub
   return fabs(determinant) / 6;
 }
 
+// grad N_i (1/mm) of a quadratic tet at point q of its rule, and the volume that the point stands for.
+static double point_gradients(const vsc_mesh *mesh, size_t element, const vsc_cell_rule *rule, int q,
+                              double gradient[VSC_MOST_CORNERS][3])
+{
+  const uint32_t *corner = vsc_mesh_corners(mesh, element);
+  double J[3][3] = {{0}}, dual[3][3];
+  for (int i = 0; i < 10; i++)
+    for (int k = 0; k < 3; k++)
+      for (int a = 0; a < 3; a++)
+        J[k][a] += rule->D[q][k][i] * mesh->nodes[3 * (size_t)corner[i] + (size_t)a];
+  for (int k = 0; k < 3; k++) vsc_cross(J[(k + 1) % 3], J[(k + 2) % 3], dual[k]);
+  const double determinant = vsc_dot(J[0], dual[0]);
+  for (int i = 0; i < 10; i++)
+    for (int a = 0; a < 3; a++)
+      gradient[i][a] = (rule->D[q][0][i] * dual[0][a] + rule->D[q][1][i] * dual[1][a] +
+                        rule->D[q][2][i] * dual[2][a]) / determinant;
+  return rule->weight[q] * determinant;
+}
+
 // The mean gradient over an element's tets, and their volume.
 static void gradient_of(const vsc_mesh *mesh, size_t element, const double *depth,
                         double gradient[3], double *volume)
@@ -81,15 +100,23 @@ typedef struct laplace {
   cholmod_factor *factor;
 } laplace;
 
+static void mark_outer(double *value)
+{
+  *value = *value == 0 || *value == 0.5 ? 0.5 : 1;
+}
+
 static void mark_known(laplace *problem, const vsc_surface *endo, const vsc_surface *epi)
 {
   const size_t nodes = problem->mesh->node_count;
   double *depth = problem->depth;
   for (size_t i = 0; i < nodes; i++) depth[i] = -1;
-  for (size_t k = 0; k < 3 * endo->count; k++) depth[endo->triangles[k]] = 0;
+  for (size_t k = 0; k < 3 * endo->count; k++) {
+    depth[endo->triangles[k]] = 0;
+    if (endo->mid != NULL) depth[endo->mid[k]] = 0;
+  }
   for (size_t k = 0; k < 3 * epi->count; k++) {
-    double *value = &depth[epi->triangles[k]];
-    *value = *value == 0 || *value == 0.5 ? 0.5 : 1;
+    mark_outer(&depth[epi->triangles[k]]);
+    if (epi->mid != NULL) mark_outer(&depth[epi->mid[k]]);
   }
   for (size_t i = 0; i < nodes; i++)
     if (depth[i] < 0)
@@ -159,17 +186,17 @@ static vsc_status cholmod_failure(const laplace *problem, vsc_error *error)
   }
 }
 
-static void add_tet(const laplace *problem, const uint32_t tet[4], cholmod_triplet *triplet)
+// Adds volume . grad N_i . grad N_j of `count` nodes.
+static void add_products(const laplace *problem, const uint32_t *node, int count, double volume,
+                         double (*gradient)[3], cholmod_triplet *triplet)
 {
-  double gradient[4][3];
-  const double volume = shape_gradients(problem->mesh, tet, gradient);
-  for (int i = 0; i < 4; i++) {
-    const int32_t row = problem->number[tet[i]];
+  for (int i = 0; i < count; i++) {
+    const int32_t row = problem->number[node[i]];
     if (row < 0) continue;
-    for (int j = 0; j < 4; j++) {
-      const int32_t column = problem->number[tet[j]];
+    for (int j = 0; j < count; j++) {
+      const int32_t column = problem->number[node[j]];
       const double value = volume * vsc_dot(gradient[i], gradient[j]);
-      if (column < 0) ((double *)problem->right->x)[row] -= value * problem->depth[tet[j]];
+      if (column < 0) ((double *)problem->right->x)[row] -= value * problem->depth[node[j]];
       if (column < 0 || column > row) continue;
       ((int *)triplet->i)[triplet->nnz] = row;
       ((int *)triplet->j)[triplet->nnz] = column;
@@ -178,12 +205,33 @@ static void add_tet(const laplace *problem, const uint32_t tet[4], cholmod_tripl
   }
 }
 
-// The tets of a mesh.
-static size_t count_tets(const vsc_mesh *mesh)
+static void add_element(const laplace *problem, size_t e, const vsc_cell_rule *quadratic,
+                        cholmod_triplet *triplet)
+{
+  const vsc_mesh *mesh = problem->mesh;
+  uint32_t tets[VSC_MOST_TETS][4];
+  double gradient[VSC_MOST_CORNERS][3];
+  if (mesh->kinds[e] == VSC_TET10) {
+    for (int q = 0; q < quadratic->points; q++) {
+      const double volume = point_gradients(mesh, e, quadratic, q, gradient);
+      add_products(problem, vsc_mesh_corners(mesh, e), 10, volume, gradient, triplet);
+    }
+    return;
+  }
+  const int count = vsc_mesh_split(mesh, e, tets);
+  for (int t = 0; t < count; t++) {
+    const double volume = shape_gradients(mesh, tets[t], gradient);
+    add_products(problem, tets[t], 4, volume, gradient, triplet);
+  }
+}
+
+// Entries of the triangle of the matrix before equal places are added up.
+static size_t count_entries(const vsc_mesh *mesh)
 {
   uint32_t tets[VSC_MOST_TETS][4];
   size_t count = 0;
-  for (size_t e = 0; e < mesh->element_count; e++) count += (size_t)vsc_mesh_split(mesh, e, tets);
+  for (size_t e = 0; e < mesh->element_count; e++)
+    count += mesh->kinds[e] == VSC_TET10 ? 4 * 55 : 10 * (size_t)vsc_mesh_split(mesh, e, tets);
   return count;
 }
 
@@ -194,13 +242,10 @@ static bool assemble(laplace *problem)
   cholmod_common *common = &problem->common;
   problem->right = cholmod_zeros(n, 1, CHOLMOD_REAL, common);
   cholmod_triplet *triplet =
-      cholmod_allocate_triplet(n, n, 10 * count_tets(mesh), -1, CHOLMOD_REAL, common);
+      cholmod_allocate_triplet(n, n, count_entries(mesh), -1, CHOLMOD_REAL, common);
   if (problem->right != NULL && triplet != NULL) {
-    for (size_t e = 0; e < mesh->element_count; e++) {
-      uint32_t tets[VSC_MOST_TETS][4];
-      const int count = vsc_mesh_split(mesh, e, tets);
-      for (int t = 0; t < count; t++) add_tet(problem, tets[t], triplet);
-    }
+    const vsc_cell_rule quadratic = vsc_cell_rule_of(VSC_TET10);
+    for (size_t e = 0; e < mesh->element_count; e++) add_element(problem, e, &quadratic, triplet);
     problem->matrix = cholmod_triplet_to_sparse(triplet, 0, common);
   }
   cholmod_free_triplet(&triplet, common);
@@ -265,12 +310,27 @@ static void nodal_gradients(const vsc_mesh *mesh, const double *depth, double *n
   }
 }
 
-// A gradient counts as zero when the depth changes by less than 1e-9 over the size of the element.
-static void transmural_axis(const vsc_mesh *mesh, size_t element, const double *depth,
-                            const double *nodal, double e_t[3])
+// Depth and its gradient at the frame of an element: the mean of its nodes and over it; of a quadratic tet
+// at point q. A gradient counts as zero when the depth changes by less than 1e-9 over the size of the
+// element.
+static void depth_at(const vsc_mesh *mesh, size_t element, const vsc_cell_rule *quadratic, int q,
+                     const double *depth, const double *nodal, double *t, double e_t[3])
 {
-  double volume;
-  gradient_of(mesh, element, depth, e_t, &volume);
+  const uint32_t *corner = vsc_mesh_corners(mesh, element);
+  const int corners = vsc_mesh_kind(mesh, element)->corners;
+  double volume, gradient[VSC_MOST_CORNERS][3];
+  *t = 0;
+  if (mesh->kinds[element] == VSC_TET10) {
+    volume = 4 * point_gradients(mesh, element, quadratic, q, gradient);
+    for (int a = 0; a < 3; a++) e_t[a] = 0;
+    for (int i = 0; i < corners; i++) {
+      *t += quadratic->N[q][i] * depth[corner[i]];
+      for (int a = 0; a < 3; a++) e_t[a] += gradient[i][a] * depth[corner[i]];
+    }
+  } else {
+    gradient_of(mesh, element, depth, e_t, &volume);
+    for (int c = 0; c < corners; c++) *t += depth[corner[c]] / (double)corners;
+  }
   if (vsc_norm(e_t) * cbrt(volume) > 1e-9) return;
   for (size_t a = 0; a < 3; a++) {
     e_t[a] = 0;
@@ -282,13 +342,16 @@ static void transmural_axis(const vsc_mesh *mesh, size_t element, const double *
 static void set_axes(const vsc_mesh *mesh, const vsc_fiber_def *definition, const double *depth,
                      const double *nodal, vsc_axes *axes)
 {
+  const vsc_cell_rule quadratic = vsc_cell_rule_of(VSC_TET10);
   for (size_t e = 0; e < mesh->element_count; e++) {
-    double e_t[3], t = 0;
-    transmural_axis(mesh, e, depth, nodal, e_t);
-    const size_t first = mesh->start[e], end = mesh->start[e + 1];
-    for (size_t c = first; c < end; c++) t += depth[mesh->corners[c]] / (double)(end - first);
-    const double angle = (1 - t) * definition->endo_angle + t * definition->epi_angle;
-    axes->known[e] = vsc_helix_frame(e_t, definition->long_axis, angle, &axes->frames[9 * e]) != 0;
+    int known = 1;
+    for (int q = 0; q < axes->points; q++) {
+      double e_t[3], t;
+      depth_at(mesh, e, &quadratic, q, depth, nodal, &t, e_t);
+      const double angle = (1 - t) * definition->endo_angle + t * definition->epi_angle;
+      known &= vsc_helix_frame(e_t, definition->long_axis, angle, vsc_axes_frame(axes, e, q));
+    }
+    vsc_axes_finish(axes, e, known);
   }
 }
 

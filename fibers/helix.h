@@ -26,7 +26,7 @@ int vsc_helix_frame(const double transmural[3], const double long_axis[3], doubl
                     double frame[9]);
 
 // Depth t of every node (depth: node_count, owned by the caller): the solution of div grad t = 0 on
-// linear tets (elements of other kinds are cut into some, vsc_mesh_split), t = 0 on the nodes of
+// linear tets (elements of other kinds are cut into some, vsc_mesh_split) or on quadratic ones, t = 0 on the nodes of
 // `endo`, 1 on those of `epi`, 0.5 on nodes of both, no flux elsewhere; solved by CHOLMOD.
 // VSC_INPUT when a part of the mesh touches neither surface.
 vsc_status vsc_helix_depth(const vsc_mesh *mesh, const vsc_surface *endo, const vsc_surface *epi,
@@ -35,7 +35,7 @@ vsc_status vsc_helix_depth(const vsc_mesh *mesh, const vsc_surface *endo, const 
 // Axes of every element from the depth: e_t = the mean of grad t over it (where that vanishes,
 // because all its nodes lie on one surface, the volume-weighted mean gradient of the elements round
 // its nodes), helix angle linear in the mean depth of its nodes from definition->endo_angle to
-// definition->epi_angle. Elements without any gradient stay unknown. VSC_INPUT for a zero long
+// definition->epi_angle; of quadratic tets with depth and gradient at each point. Elements without any gradient stay unknown. VSC_INPUT for a zero long
 // axis.
 vsc_status vsc_fibers_helix(const vsc_mesh *mesh, const vsc_fiber_def *definition,
                             const vsc_surface *endo, const vsc_surface *epi, vsc_axes *axes,

@@ -338,19 +338,20 @@ static void solve_three(const double s[6], const double b[3], double x[3])
   }
 }
 
-// The weighted mean of f f^T, plain and moved to the centroid of the element.
-static void mean_axes(const moments *sum, double plain[6], double moved[6])
+// The weighted mean of f f^T, plain and moved to `at` (from the centroid of the element).
+static void mean_axes(const moments *sum, const double at[3], double plain[6], double moved[6])
 {
   static const int row[6] = {0, 0, 0, 1, 1, 2}, column[6] = {0, 1, 2, 1, 2, 2};
-  double place[3], variance[6], along[3];
+  double place[3], variance[6], along[3], way[3];
   for (int a = 0; a < 3; a++) place[a] = sum->place[a] / sum->weight;
   for (int c = 0; c < 6; c++) {
     plain[c] = sum->axis[c] / sum->weight;
     variance[c] = sum->spread[c] / sum->weight - place[row[c]] * place[column[c]];
     if (row[c] == column[c]) variance[c] = fmax(variance[c], 0) + RIDGE;
   }
-  solve_three(variance, place, along);
-  const double deviations = sqrt(fmax(vsc_dot(along, place), 0));
+  vsc_subtract(place, at, way);
+  solve_three(variance, way, along);
+  const double deviations = sqrt(fmax(vsc_dot(along, way), 0));
   const double part = deviations > REACH ? REACH / deviations : 1;
   for (int c = 0; c < 6; c++) {
     moved[c] = plain[c];
@@ -366,9 +367,10 @@ static void turn(const double direction[9], double axis[3])
   memcpy(axis, turned, sizeof turned);
 }
 
-// Samples one element; returns false when it finds no voxel with data.
-static bool sample_element(const angle_map *map, const index_element *element, double frame[9],
-                           double *coherence, bool *fallback)
+// Samples one element, whose frames lie at `at` from its centroid; returns false when it finds no voxel
+// with data.
+static bool sample_element(const angle_map *map, const index_element *element, const double (*at)[3],
+                           int points, double *frames, double *coherence, bool *fallback)
 {
   moments sum = {0};
   double plain[6], moved[6], axis[3], values[3];
@@ -384,12 +386,29 @@ static bool sample_element(const angle_map *map, const index_element *element, d
     }
   }
   if (!(sum.weight > 0)) return false;
-  mean_axes(&sum, plain, moved);
-  if (!vsc_top_axis(plain, axis, values)) return false;
-  *coherence = fmin(fmax((values[0] - values[1]) / values[0], 0), 1);
-  if (!vsc_top_axis(moved, axis, NULL)) return false;
-  if (map->def->image_axes) turn(map->image->direction, axis);
-  return vsc_axes_complete(axis, NULL, frame) != 0;
+  for (int q = 0; q < points; q++) {
+    mean_axes(&sum, at[q], plain, moved);
+    if (!vsc_top_axis(plain, axis, values)) return false;
+    *coherence = fmin(fmax((values[0] - values[1]) / values[0], 0), 1);
+    if (!vsc_top_axis(moved, axis, NULL)) return false;
+    if (map->def->image_axes) turn(map->image->direction, axis);
+    if (!vsc_axes_complete(axis, NULL, frames + 9 * q)) return false;
+  }
+  return true;
+}
+
+// Where the frames of an element lie, in voxels from its centroid; a single one there.
+static void place_frames(const vsc_mesh *mesh, const angle_map *map, const vsc_axes *axes,
+                         const vsc_cell_rule *rule, size_t e, const double centre[3],
+                         double at[VSC_MOST_POINTS][3])
+{
+  for (int a = 0; a < 3; a++) at[0][a] = 0;
+  for (int q = 0; q < axes->points && axes->points > 1; q++) {
+    double place[3];
+    vsc_axes_place(axes, mesh, rule, e, q, place);
+    vsc_image_index(map->image, place, at[q]);
+    vsc_subtract(at[q], centre, at[q]);
+  }
 }
 
 static vsc_status no_overlap(const vsc_mesh *mesh, const angle_map *map, vsc_error *error)
@@ -426,12 +445,16 @@ vsc_status vsc_fibers_sample(const vsc_mesh *mesh, const vsc_image *image,
   if (!VSC_NEW(coherence, mesh->element_count)) return vsc_fail_memory(error, "the sampled fibres");
   *report = (vsc_fiber_report){0};
   size_t found = 0;
+  const vsc_cell_rule rule = vsc_cell_rule_of(VSC_TET10);  // read where there are several points
   for (size_t e = 0; e < mesh->element_count; e++) {
     bool fallback;
+    double at[VSC_MOST_POINTS][3];
     const index_element element = make_element(mesh, image, e);
-    axes->known[e] =
-        sample_element(&map, &element, &axes->frames[9 * e], &coherence[found], &fallback);
-    if (!axes->known[e]) continue;
+    place_frames(mesh, &map, axes, &rule, e, element.centre, at);
+    const bool known = sample_element(&map, &element, (const double(*)[3])at, axes->points,
+                                      vsc_axes_frame(axes, e, 0), &coherence[found], &fallback);
+    vsc_axes_finish(axes, e, known);
+    if (!known) continue;
     if (fallback) report->fallback++;
     found++;
   }

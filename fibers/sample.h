@@ -40,7 +40,8 @@ typedef struct vsc_fiber_report {
 // weights times the tet's volume, which is the mean of the trilinear interpolant. How: the weighted
 // mean of f f^T is moved from the centroid of those voxels to the centroid of the element along the
 // gradient of their weighted linear fit, by at most twice their standard deviation. So it hardly
-// matters that the mask cuts the neighbourhood of an element at the surface. An element without any
+// matters that the mask cuts the neighbourhood of an element at the surface. A quadratic tet's mean is
+// moved to each of its points in the same way. An element without any
 // such voxel stays unknown.
 //
 // Origin, spacing and direction of the image are honoured; a left-handed direction too. Sets

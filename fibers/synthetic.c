@@ -38,9 +38,27 @@ static void helicoidal(const double low[3], const double high[3], const double a
   f[2] = sin(pitch);
 }
 
+// Fibre and hint at a place.
+static void formula(const vsc_fiber_def *definition, const double low[3], const double high[3],
+                    const double at[3], double f[3], double hint[3])
+{
+  for (int a = 0; a < 3; a++) f[a] = hint[a] = 0;
+  switch (definition->source) {
+    case VSC_FIBER_CONSTANT: constant(definition, f, hint); break;
+    case VSC_FIBER_HORIZONTAL: f[0] = 1; break;
+    case VSC_FIBER_DIAGONAL: f[0] = f[2] = 1; break;
+    case VSC_FIBER_HEMICIRCULAR: hemicircular(low, high, at, f, hint); break;
+    default: helicoidal(low, high, at, definition->pitch, f, hint);
+  }
+}
+
 static vsc_status check(const vsc_fiber_def *definition, vsc_error *error)
 {
   const double *d = definition->direction;
+  const vsc_fiber_source source = definition->source;
+  if (source != VSC_FIBER_CONSTANT &&
+      (source < VSC_FIBER_HORIZONTAL || source > VSC_FIBER_RANDOM))
+    return vsc_fail(error, VSC_INPUT, "fibre source %d is not a formula", (int)source);
   const double length = vsc_norm(d);
   if (definition->source == VSC_FIBER_CONSTANT && !(isfinite(length) && length >= 1e-6))
     return vsc_fail(error, VSC_INPUT,
@@ -65,23 +83,19 @@ vsc_status vsc_fibers_synthetic(const vsc_mesh *mesh, const vsc_fiber_def *defin
     if (random == NULL) return vsc_fail_memory(error, "the random fibres");
     gsl_rng_set(random, definition->seed);
   }
-  double low[3], high[3];
+  double low[3], high[3], f[3], hint[3];
   vsc_mesh_box(mesh, low, high);
+  const vsc_cell_rule rule = vsc_cell_rule_of(VSC_TET10);  // read where there are several points
   for (size_t e = 0; e < mesh->element_count; e++) {
-    double at[3], f[3] = {0}, hint[3] = {0};
-    vsc_mesh_element_centre(mesh, e, at);
-    switch (definition->source) {
-      case VSC_FIBER_CONSTANT: constant(definition, f, hint); break;
-      case VSC_FIBER_HORIZONTAL: f[0] = 1; break;
-      case VSC_FIBER_DIAGONAL: f[0] = f[2] = 1; break;
-      case VSC_FIBER_HEMICIRCULAR: hemicircular(low, high, at, f, hint); break;
-      case VSC_FIBER_HELICOIDAL: helicoidal(low, high, at, definition->pitch, f, hint); break;
-      case VSC_FIBER_RANDOM: gsl_ran_dir_3d(random, &f[0], &f[1], &f[2]); break;
-      default:
-        return vsc_fail(error, VSC_INPUT, "fibre source %d is not a formula",
-                        (int)definition->source);
+    int known = 1;
+    if (random != NULL) gsl_ran_dir_3d(random, &f[0], &f[1], &f[2]);
+    for (int q = 0; q < axes->points; q++) {
+      double at[3];
+      vsc_axes_place(axes, mesh, &rule, e, q, at);
+      if (random == NULL) formula(definition, low, high, at, f, hint);
+      known &= vsc_axes_complete(f, random == NULL ? hint : NULL, vsc_axes_frame(axes, e, q));
     }
-    axes->known[e] = vsc_axes_complete(f, hint, &axes->frames[9 * e]) != 0;
+    vsc_axes_finish(axes, e, known);
   }
   if (random != NULL) gsl_rng_free(random);
   return VSC_OK;

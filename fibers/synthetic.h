@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fibre fields by formula, for tests and for the figures of Bourguignon & Cani 2000. Each is
-// evaluated at the centre of the element; x0 and x1 are the corners of the box round the mesh.
+// evaluated at the centre of the element, of quadratic tets at each point of theirs; x0 and x1 are the corners of the box round the mesh.
 #ifndef VSC_FIBERS_SYNTHETIC_H
 #define VSC_FIBERS_SYNTHETIC_H
 

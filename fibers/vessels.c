@@ -112,8 +112,7 @@ static void share(vsc_mesh *mesh, const vsc_vessel_def *vessel, uint32_t number,
     }
     room->taken[e] += fraction[e];
     if (fraction[e] < vessel->threshold || fraction[e] <= room->largest[e]) continue;
-    if (!vsc_axes_complete(&room->direction[3 * e], NULL, &axes->frames[9 * e])) continue;
-    axes->known[e] = 1;
+    if (!vsc_axes_set(axes, e, &room->direction[3 * e], NULL)) continue;
     room->largest[e] = fraction[e];
     room->owner[e] = number;
   }

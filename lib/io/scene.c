@@ -44,6 +44,7 @@ static vsc_scene *create_scene(const char *file)
   if (!VSC_NEW(scene, 1)) return NULL;
   snprintf(scene->file, sizeof scene->file, "%s", file);
   scene->mesh_unit = 1;
+  scene->mesh_order = 1;
   scene->fibers = vsc_default_fiber();
   scene->definition = vsc_default_definition();
   scene->output.frame_interval = scene->output.signal_interval = NAN;  // not given
@@ -130,5 +131,6 @@ void vsc_scene_free(vsc_scene *scene)
 {
   if (scene == NULL) return;
   vsc_definition_free(&scene->definition);
+  vsc_free(scene->curved);
   vsc_free(scene);
 }

@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "mesh/quadratic.h"
 #include "model/definition.h"
 #include "model/fiber_def.h"
 
@@ -29,6 +30,9 @@ typedef struct vsc_scene {
   char file[VSC_PATH];      // the scene file
   char mesh_file[VSC_PATH]; // resolved against the scene file's folder
   double mesh_unit;         // mm per unit of the mesh's coordinates
+  int mesh_order;           // 1: elements as the file has them (default), 2: tets made quadratic
+  size_t curved_count;      // surfaces whose edges are bent
+  vsc_curved_def *curved;   // owned
   vsc_fiber_def fibers;     // its map file resolved likewise
   vsc_definition definition;
   vsc_output_def output;

@@ -40,6 +40,34 @@ static vsc_status need_surface(vsc_reading *reading, const vsc_definition *d, co
                           nearest != NULL ? nearest : "");
 }
 
+static vsc_status check_mesh(vsc_reading *reading, const vsc_scene *scene)
+{
+  vsc_enter(reading, "mesh.file");
+  const vsc_status status = vsc_scene_file_exists(reading, scene->mesh_file);
+  if (status != VSC_OK) return status;
+  vsc_leave(reading, 0);
+  vsc_enter(reading, "mesh.order");
+  if (scene->mesh_order != 1 && scene->mesh_order != 2)
+    return vsc_reading_fail(reading, "%d; expected 1 (elements as the file has them) or 2 (quadratic "
+                            "tetrahedra)", scene->mesh_order);
+  vsc_leave(reading, 0);
+  for (size_t i = 0; i < scene->curved_count; i++) {
+    const vsc_curved_def *curved = &scene->curved[i];
+    vsc_enter(reading, "mesh.curved");
+    vsc_enter_item(reading, i);
+    const size_t length = vsc_enter(reading, "surface");
+    const vsc_status known = need_surface(reading, &scene->definition, curved->surface);
+    if (known != VSC_OK) return known;
+    vsc_leave(reading, length);
+    vsc_enter(reading, "ellipsoid.radii");
+    for (int a = 0; a < 3; a++)
+      if (!(curved->radii[a] > 0))
+        return vsc_reading_fail(reading, "%g mm; expected lengths above zero", curved->radii[a]);
+    vsc_leave(reading, 0);
+  }
+  return VSC_OK;
+}
+
 static vsc_status check_wall(vsc_reading *reading, const vsc_definition *d, const char *key,
                              const char *name, double angle)
 {
@@ -142,10 +170,8 @@ static vsc_status check_pressures(vsc_reading *reading, const vsc_scene *scene)
 vsc_status vsc_scene_check(vsc_reading *reading, const vsc_scene *scene)
 {
   vsc_error found;
-  vsc_enter(reading, "mesh.file");
-  vsc_status status = vsc_scene_file_exists(reading, scene->mesh_file);
+  vsc_status status = check_mesh(reading, scene);
   if (status != VSC_OK) return status;
-  vsc_leave(reading, 0);
   status = vsc_definition_check(&scene->definition, &found);
   if (status != VSC_OK) return vsc_reading_locate(reading, &found);
   status = check_pressures(reading, scene);

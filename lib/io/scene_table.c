@@ -7,6 +7,21 @@
 
 // ---- mesh
 
+static const vsc_row ellipsoid_rows[] = {
+    {"centre", VECTOR(vsc_curved_def, centre, VSC_LENGTH), .needed = VSC_ALWAYS,
+     .text = "[0 mm, 0 mm, 0 mm]", .meaning = "where its axes cross; they are x, y, z"},
+    {"radii", VECTOR(vsc_curved_def, radii, VSC_LENGTH), .needed = VSC_ALWAYS,
+     .text = "[7 mm, 7 mm, 17 mm]", .meaning = "along x, y, z"},
+};
+GROUP(static, ellipsoid, -1);
+
+static const vsc_row curved_rows[] = {
+    {"surface", NAME(vsc_curved_def, surface), .needed = VSC_ALWAYS, .text = "endo",
+     .meaning = "one of the surfaces below"},
+    {"ellipsoid", PART(0, ellipsoid), .needed = VSC_ALWAYS, .meaning = "what it lies on"},
+};
+GROUP(static, curved, -1, .size = sizeof(vsc_curved_def));
+
 static const vsc_row mesh_rows[] = {
     {"file", .kind = VSC_ROW_PATH, AT(vsc_scene, mesh_file), .needed = VSC_ALWAYS,
      .text = "mesh.vtu", .meaning = "tetrahedra, .vtu or legacy .vtk; relative to this scene's folder"},
@@ -14,6 +29,10 @@ static const vsc_row mesh_rows[] = {
      .meaning = "length of one unit of its coordinates: mm, m, 0.1 mm"},
     {"region_array", NAME(vsc_scene, definition.region_array), .commented = true, .text = "region",
      .meaning = "cell array of region numbers; absent: one region, 0"},
+    {"order", .kind = VSC_ROW_WHOLE_INT, AT(vsc_scene, mesh_order), .text = "1",
+     .meaning = "2: tetrahedra become quadratic ones, with a node in the middle of each edge"},
+    {"curved", PARTS(vsc_scene, curved, curved_count, curved), .commented = true,
+     .meaning = "order: 2: surfaces whose edges are bent onto an ellipsoid"},
 };
 GROUP(static, mesh, -1);
 

@@ -59,8 +59,7 @@ std::string cell_kind(int type)
   static const std::map<int, const char *> names = {
     {VTK_EMPTY_CELL, "empty cells"}, {VTK_VERTEX, "vertices"}, {VTK_POLY_VERTEX, "point clouds"},
     {VTK_LINE, "lines"}, {VTK_POLY_LINE, "polylines"}, {VTK_TRIANGLE_STRIP, "triangle strips"},
-    {VTK_POLYGON, "polygons"}, {VTK_PIXEL, "pixels"},
-    {VTK_QUADRATIC_TETRA, "quadratic tetrahedra"}, {VTK_QUADRATIC_TRIANGLE, "quadratic triangles"}};
+    {VTK_POLYGON, "polygons"}, {VTK_PIXEL, "pixels"}, {VTK_QUADRATIC_TRIANGLE, "quadratic triangles"}};
   const auto name = names.find(type);
   return name != names.end() ? name->second : "cells of VTK type " + std::to_string(type);
 }
@@ -88,11 +87,13 @@ const corner_order ELEMENT_TYPES[] = {
   {VTK_VOXEL, VSC_HEX, 8, {0, 1, 3, 2, 4, 5, 7, 6}},
   {VTK_WEDGE, VSC_WEDGE, 6, {3, 4, 5, 0, 1, 2}},
   {VTK_PYRAMID, VSC_PYRAMID, 5, {0, 1, 2, 3, 4}},
+  {VTK_QUADRATIC_TETRA, VSC_TET10, 10, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}},
 };
 
-// Triangles of a surface cell.
+// Triangles of a surface cell. Of a quadratic one the corners: its middles are the elements'.
 const corner_order SURFACE_TYPES[] = {{VTK_TRIANGLE, VSC_TET, 3, {0, 1, 2}},
-                                      {VTK_QUAD, VSC_TET, 4, {0, 1, 2, 3}}};
+                                      {VTK_QUAD, VSC_TET, 4, {0, 1, 2, 3}},
+                                      {VTK_QUADRATIC_TRIANGLE, VSC_TET10, 6, {0, 1, 2, 3, 4, 5}}};
 
 template <size_t N> const corner_order *find_type(const corner_order (&types)[N], int type)
 {
@@ -151,10 +152,23 @@ vsc_status copy_connectivity(const char *file, Array *offsets, Array *points,
     if (status != VSC_OK) return status;
     // a quad is cut as vsc_boundary cuts it
     if (order->count == 4) std::rotate(corner, std::min_element(corner, corner + 4), corner + 4);
-    for (unsigned cut = 0; cut + 2 < order->count; cut++)
+    const unsigned corners = order->kind == VSC_TET10 ? 3 : order->count;
+    for (unsigned cut = 0; cut + 2 < corners; cut++)
       for (const unsigned i : {0u, cut + 1, cut + 2}) *to++ = corner[i];
   }
   return VSC_OK;
+}
+
+// Quadratic triangles are faces of quadratic elements; alone they are nothing that could be computed on.
+void ignore_lone_triangles(const unsigned char *types, sorted_cells &cells)
+{
+  if (std::find(cells.kinds.begin(), cells.kinds.end(), VSC_TET10) != cells.kinds.end()) return;
+  const auto end = std::remove_if(cells.surface.begin(), cells.surface.end(), [&](uint32_t cell) {
+    return types[cell] == VTK_QUADRATIC_TRIANGLE;
+  });
+  if (end == cells.surface.end()) return;
+  cells.others[VTK_QUADRATIC_TRIANGLE] += (size_t)(cells.surface.end() - end);
+  cells.surface.erase(end, cells.surface.end());
 }
 
 vsc_status sort_cells(const char *file, vtkUnstructuredGrid *grid, sorted_cells &cells,
@@ -183,6 +197,7 @@ vsc_status sort_cells(const char *file, vtkUnstructuredGrid *grid, sorted_cells 
       cells.others[type]++;
     }
   }
+  ignore_lone_triangles(types->GetPointer(0), cells);
   if (!cells.elements.empty() || !cells.surface.empty()) return VSC_OK;
   return vsc_fail(error, VSC_INPUT,
                   "%s: holds no tetrahedra, hexahedra, wedges, pyramids or triangles (%.200s): mesh "

@@ -12,8 +12,9 @@
 
 // Reads an unstructured grid from .vtu or legacy .vtk, in every encoding that VTK reads, and cleans
 // it (vsc_mesh_clean). Coordinates are multiplied by `unit` (mm per unit). Tetrahedra, hexahedra
-// (voxels too), wedges and pyramids become elements; triangles and quads (cut in two as vsc_boundary
-// cuts them) surface triangles; other cells are counted and ignored. Wedges are expected as VTK
+// (voxels too), wedges, pyramids and quadratic tetrahedra become elements; triangles, quads (cut in two
+// as vsc_boundary cuts them) and, beside quadratic tetrahedra, quadratic triangles become surface
+// triangles; other cells are counted and ignored. Wedges are expected as VTK
 // draws them, the first triangle turning counter-clockwise seen from outside; others are turned.
 // Every numeric point array comes as node data, every numeric cell array as element data and as
 // triangle data. VSC_INPUT with the file's name for a missing, truncated, empty or foreign file,
@@ -42,7 +43,8 @@ typedef struct vsc_vtk_array {
   bool integer;          // written as Int32
 } vsc_vtk_array;
 
-// Writes a mesh's nodes, elements, triangles (behind the elements) and the given arrays as .vtu:
+// Writes a mesh's nodes, elements, triangles (behind the elements; with their middles where the mesh has
+// them) and the given arrays as .vtu:
 // inline binary (Debian 12's ParaView cannot read appended data since its expat was updated), zlib, UInt64
 // headers, Float32 or (double_precision) Float64; to a temporary name in the same folder, renamed
 // when complete. Arrays on elements are 0 on the triangles, and the other way round. The mesh's own

@@ -78,7 +78,8 @@ vtkSmartPointer<vtkDataArray> make_real(const char *name, int components, size_t
            : make_array<vtkFloatArray>(name, components, before, given, tuples, values);
 }
 
-constexpr VTKCellType CELL_TYPES[VSC_CELLS] = {VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE, VTK_PYRAMID};
+constexpr VTKCellType CELL_TYPES[VSC_CELLS] = {VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE, VTK_PYRAMID,
+                                               VTK_QUADRATIC_TETRA};
 
 // VTK's corner `i` of an element: a wedge's triangles are exchanged.
 uint32_t vtk_corner(const vsc_mesh *mesh, size_t element, size_t i)
@@ -91,22 +92,29 @@ template <typename Array> void set_cells(vtkUnstructuredGrid *grid, const vsc_me
 {
   const size_t elements = mesh->element_count, triangles = mesh->triangle_count;
   const size_t corners = mesh->start[elements];
+  const bool curved = mesh->triangle_mid != nullptr;
+  const size_t width = curved ? 6 : 3;  // points of a triangle
   vtkNew<Array> offsets, points;
   vtkNew<vtkUnsignedCharArray> types;
   offsets->SetNumberOfValues((vtkIdType)(elements + triangles + 1));
-  points->SetNumberOfValues((vtkIdType)(corners + 3 * triangles));
+  points->SetNumberOfValues((vtkIdType)(corners + width * triangles));
   types->SetNumberOfValues((vtkIdType)(elements + triangles));
   using number = typename Array::ValueType;
   number *start = offsets->GetPointer(0), *point = points->GetPointer(0);
   for (size_t i = 0; i <= elements; i++) start[i] = (number)mesh->start[i];
-  for (size_t i = 0; i < triangles; i++) start[elements + i + 1] = (number)(corners + 3 * (i + 1));
+  for (size_t i = 0; i < triangles; i++)
+    start[elements + i + 1] = (number)(corners + width * (i + 1));
   for (size_t i = 0; i < elements + triangles; i++)
     types->SetValue((vtkIdType)i, (unsigned char)(i < elements ? CELL_TYPES[mesh->kinds[i]]
+                                                  : curved     ? VTK_QUADRATIC_TRIANGLE
                                                                : VTK_TRIANGLE));
   for (size_t e = 0; e < elements; e++)
     for (size_t i = 0; i < mesh->start[e + 1] - mesh->start[e]; i++)
       *point++ = (number)vtk_corner(mesh, e, i);
-  for (size_t i = 0; i < 3 * triangles; i++) *point++ = (number)mesh->triangles[i];
+  for (size_t t = 0; t < triangles; t++) {
+    for (size_t i = 0; i < 3; i++) *point++ = (number)mesh->triangles[3 * t + i];
+    for (size_t i = 0; i < 3 && curved; i++) *point++ = (number)mesh->triangle_mid[3 * t + i];
+  }
   vtkNew<vtkCellArray> cells;
   cells->SetData(offsets, points);
   grid->SetCells(types, cells);
@@ -177,7 +185,7 @@ vsc_status write_mesh(const char *file, const vsc_mesh *mesh, size_t array_count
   vtkNew<vtkPoints> points;
   points->SetData(make_real("Points", 3, 0, nodes, nodes, mesh->nodes, double_precision));
   grid->SetPoints(points);
-  if (nodes <= INT32_MAX && mesh->start[mesh->element_count] + 3 * mesh->triangle_count <= INT32_MAX)
+  if (nodes <= INT32_MAX && mesh->start[mesh->element_count] + 6 * mesh->triangle_count <= INT32_MAX)
     set_cells<vtkTypeInt32Array>(grid, mesh);
   else
     set_cells<vtkTypeInt64Array>(grid, mesh);

@@ -43,13 +43,15 @@ FORCE_KERNELS(1, 2)
 const vsc_kernels KERNEL_SET = {
     .name = KERNEL_NAME,
     .tets = {TABLE(0), TABLE(1)},
-    .solids = {{force_hexes, force_wedges, force_pyramids},
-               {force_damped_hexes, force_damped_wedges, force_damped_pyramids}},
+    .solids = {{force_hexes, force_wedges, force_pyramids, force_tets10},
+               {force_damped_hexes, force_damped_wedges, force_damped_pyramids,
+                force_damped_tets10}},
     .paper_tets = {force_paper_tets, force_damped_paper_tets},
     .paper_hexes = {force_paper_hexes, force_damped_paper_hexes},
     .springs = {force_springs, force_damped_springs},
     .triangles = {force_triangles, force_damped_triangles},
     .bends = {force_bends, force_damped_bends},
     .volume = volume_kernel,
-    .tangents = {tangent_tets, tangent_hexes, tangent_wedges, tangent_pyramids},
+    .tangents = {tangent_tets, tangent_hexes, tangent_wedges, tangent_pyramids,
+                 tangent_tets10},
 };

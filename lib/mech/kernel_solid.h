@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hexahedra, wedges and pyramids under law SPRINGS: several frames that share one volume ratio and
+// Hexahedra, wedges, pyramids and quadratic tets under law SPRINGS: several frames that share one volume ratio and
 // one pressure (mean dilatation). Internal to mech; included by kernel_body.h.
 #ifndef VSC_MECH_KERNEL_SOLID_H
 #define VSC_MECH_KERNEL_SOLID_H
@@ -198,5 +198,6 @@ VSC_INLINE void solid_kernel(const vsc_patch_work *work, int corners, int points
 SOLID_KERNELS(hexes, 8, 8)
 SOLID_KERNELS(wedges, 6, 6)
 SOLID_KERNELS(pyramids, 5, 8)
+SOLID_KERNELS(tets10, 10, 4)
 
 #endif

@@ -208,5 +208,6 @@ TANGENT_KERNEL(tets, 4, 1)
 TANGENT_KERNEL(hexes, 8, 8)
 TANGENT_KERNEL(wedges, 6, 6)
 TANGENT_KERNEL(pyramids, 5, 8)
+TANGENT_KERNEL(tets10, 10, 4)
 
 #endif

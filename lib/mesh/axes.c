@@ -10,18 +10,32 @@
 static const double SHORTEST = 1e-6;                    // a fibre vector's length
 static const double SINE_OF_1_DEGREE = 0.0174524064372835;
 
-vsc_axes *vsc_axes_create(size_t count)
+static vsc_axes *create(size_t count, int points)
 {
   vsc_axes *axes;
   if (!VSC_NEW(axes, 1)) return NULL;
+  const size_t frames = (size_t)points * count;
   axes->count = count;
-  if (count > SIZE_MAX / 9 || !VSC_NEW(axes->frames, 9 * count) || !VSC_NEW(axes->known, count)) {
+  axes->points = points;
+  if (count > SIZE_MAX / 9 / (size_t)points || !VSC_NEW(axes->frames, 9 * frames) ||
+      !VSC_NEW(axes->known, count)) {
     vsc_axes_free(axes);
     return NULL;
   }
-  for (size_t i = 0; i < count; i++)
+  for (size_t i = 0; i < frames; i++)
     for (int axis = 0; axis < 3; axis++) axes->frames[9 * i + 4 * axis] = 1;
   return axes;
+}
+
+vsc_axes *vsc_axes_create(size_t count)
+{
+  return create(count, 1);
+}
+
+vsc_axes *vsc_axes_create_for(const vsc_mesh *mesh)
+{
+  return create(mesh->element_count,
+                vsc_mesh_is_quadratic(mesh) ? vsc_cell_rule_of(VSC_TET10).points : 1);
 }
 
 void vsc_axes_free(vsc_axes *axes)
@@ -77,9 +91,42 @@ int vsc_axes_complete(const double fiber[3], const double *sheet, double frame[9
   return 1;
 }
 
+void vsc_axes_place(const vsc_axes *axes, const vsc_mesh *mesh, const vsc_cell_rule *rule,
+                    size_t element, int point, double at[3])
+{
+  if (axes->points == 1) {
+    vsc_mesh_element_centre(mesh, element, at);
+    return;
+  }
+  const uint32_t *corner = vsc_mesh_corners(mesh, element);
+  for (int a = 0; a < 3; a++) {
+    at[a] = 0;
+    for (int i = 0; i < vsc_mesh_kind(mesh, element)->corners; i++)
+      at[a] += rule->N[point][i] * mesh->nodes[3 * (size_t)corner[i] + (size_t)a];
+  }
+}
+
+int vsc_axes_set(vsc_axes *axes, size_t element, const double fiber[3], const double *sheet)
+{
+  double *frame = vsc_axes_frame(axes, element, 0);
+  if (!vsc_axes_complete(fiber, sheet, frame)) return 0;
+  for (int q = 1; q < axes->points; q++)
+    memcpy(vsc_axes_frame(axes, element, q), frame, 9 * sizeof *frame);
+  axes->known[element] = 1;
+  return 1;
+}
+
+void vsc_axes_finish(vsc_axes *axes, size_t element, int known)
+{
+  static const double global[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  axes->known[element] = known != 0;
+  for (int q = 0; q < axes->points && !known; q++)
+    memcpy(vsc_axes_frame(axes, element, q), global, sizeof global);
+}
+
 int vsc_axes_valid(const vsc_axes *axes)
 {
-  for (size_t i = 0; i < axes->count; i++) {
+  for (size_t i = 0; i < (size_t)axes->points * axes->count; i++) {
     const double *f = axes->frames + 9 * i;
     for (int a = 0; a < 3; a++)
       for (int b = a; b < 3; b++)

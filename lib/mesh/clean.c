@@ -7,6 +7,7 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
+#include "mesh/edges.h"
 #include "mesh/mesh.h"
 #include "mesh/topology.h"
 
@@ -157,7 +158,9 @@ static void turn_left_handed(vsc_mesh *mesh)
   static const int turned[VSC_CELLS][VSC_MOST_CORNERS] = {[VSC_TET] = {0, 1, 3, 2},
                                                           [VSC_HEX] = {4, 5, 6, 7, 0, 1, 2, 3},
                                                           [VSC_WEDGE] = {3, 4, 5, 0, 1, 2},
-                                                          [VSC_PYRAMID] = {0, 3, 2, 1, 4}};
+                                                          [VSC_PYRAMID] = {0, 3, 2, 1, 4},
+                                                          [VSC_TET10] = {0, 1, 3, 2, 4, 8, 7, 6, 5,
+                                                                         9}};
   mesh->report.turned_elements = 0;
   for (size_t e = 0; e < mesh->element_count; e++) {
     if (vsc_mesh_element_volume(mesh, e) > 0) continue;
@@ -169,20 +172,7 @@ static void turn_left_handed(vsc_mesh *mesh)
   }
 }
 
-// det J of element `element` at point `q`, J_ka = sum_i d N_i / d xi_k x_ia
-static double jacobian(const vsc_mesh *mesh, size_t element, const vsc_cell_rule *rule, int q)
-{
-  const uint32_t *corner = vsc_mesh_corners(mesh, element);
-  double J[3][3] = {{0}}, normal[3];
-  for (int i = 0; i < vsc_mesh_kind(mesh, element)->corners; i++)
-    for (int k = 0; k < 3; k++)
-      for (int a = 0; a < 3; a++)
-        J[k][a] += rule->D[q][k][i] * mesh->nodes[3 * (size_t)corner[i] + (size_t)a];
-  vsc_cross(J[0], J[1], normal);
-  return vsc_dot(normal, J[2]);
-}
-
-static vsc_status check_jacobians(const vsc_mesh *mesh, const char *name, vsc_error *error)
+vsc_status vsc_mesh_check_folds(const vsc_mesh *mesh, const char *name, vsc_error *error)
 {
   culprits folded = {0};
   vsc_cell_rule rules[VSC_CELLS];
@@ -191,7 +181,7 @@ static vsc_status check_jacobians(const vsc_mesh *mesh, const char *name, vsc_er
     const vsc_cell_rule *rule = &rules[mesh->kinds[e]];
     bool sound = true;
     for (int q = 0; q < rule->points && mesh->kinds[e] != VSC_TET; q++)
-      sound = sound && jacobian(mesh, e, rule, q) > 0;
+      sound = sound && vsc_mesh_jacobian(mesh, e, rule, q) > 0;
     if (!sound) blame_element(&folded, mesh, e);
   }
   return refuse(&folded, name,
@@ -225,6 +215,47 @@ static bool has_unlike_faces(const vsc_mesh *mesh)
   bool has[VSC_CELLS] = {false};
   for (size_t e = 0; e < mesh->element_count; e++) has[mesh->kinds[e]] = true;
   return has[VSC_WEDGE] || has[VSC_PYRAMID] || (has[VSC_TET] && has[VSC_HEX]);
+}
+
+static bool has_quadratic(const vsc_mesh *mesh)
+{
+  for (size_t e = 0; e < mesh->element_count; e++)
+    if (mesh->kinds[e] == VSC_TET10) return true;
+  return false;
+}
+
+// Quadratic elements fit together where they have the middles of common edges in common, and where no
+// node is the middle of one element's edge and another's corner.
+static vsc_status check_middles(const vsc_mesh *mesh, const char *name, vsc_error *error)
+{
+  culprits linear = {0}, apart = {0};
+  vsc_edges edges;
+  uint8_t *is_corner;
+  for (size_t e = 0; e < mesh->element_count; e++)
+    if (mesh->kinds[e] != VSC_TET10) blame_element(&linear, mesh, e);
+  vsc_status status = refuse(&linear, name, "beside quadratic tetrahedra there are",
+                             "make all elements quadratic tetrahedra, or all linear", error);
+  if (status != VSC_OK) return status;
+  if (!VSC_NEW(is_corner, mesh->node_count)) return vsc_fail_memory(error, "the mesh's edges");
+  status = vsc_edges_list(mesh, &edges, error);
+  for (size_t e = 0; e < mesh->element_count; e++)
+    for (int i = 0; i < 4; i++) is_corner[vsc_mesh_corners(mesh, e)[i]] = 1;
+  for (size_t e = 0; e < mesh->element_count && status == VSC_OK; e++) {
+    const uint32_t *corner = vsc_mesh_corners(mesh, e);
+    bool sound = true;
+    for (int k = 0; k < 6; k++) {
+      const int *ends = vsc_cells[VSC_TET10].edges[k];
+      const uint32_t middle = corner[4 + k];
+      sound = sound && !is_corner[middle] &&
+              vsc_edges_find(&edges, corner[ends[0]], corner[ends[1]])->middle == middle;
+    }
+    if (!sound) blame_element(&apart, mesh, e);
+  }
+  vsc_free(is_corner);
+  vsc_edges_free(&edges);
+  if (status != VSC_OK) return status;
+  return refuse(&apart, name, "not conforming, with a node in the middle of an edge that is not its "
+                "neighbours':", "give each edge one middle node, or mesh again", error);
 }
 
 // A surface's triangles.
@@ -265,12 +296,26 @@ static void squeeze_arrays(vsc_arrays *arrays, const uint8_t *keep, size_t kept)
   }
 }
 
-static void drop_loose_triangles(vsc_mesh *mesh, const uint8_t *used, uint8_t *keep)
+// Finds the middles of a triangle's edges 01, 12, 20; false when one of them is on no element.
+static bool find_middles(const vsc_edges *edges, const uint32_t corner[3], uint32_t middle[3])
+{
+  for (int i = 0; i < 3; i++) {
+    const vsc_edge *edge = vsc_edges_find(edges, corner[i], corner[(i + 1) % 3]);
+    if (edge == NULL) return false;
+    middle[i] = edge->middle;
+  }
+  return true;
+}
+
+// Keeps the triangles on elements. `edges` (NULL: of linear elements) gives them their middles.
+static void drop_loose_triangles(vsc_mesh *mesh, const uint8_t *used, const vsc_edges *edges,
+                                 uint8_t *keep)
 {
   size_t kept = 0;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     const uint32_t *corner = mesh->triangles + 3 * t;
-    keep[t] = used[corner[0]] && used[corner[1]] && used[corner[2]];
+    keep[t] = used[corner[0]] && used[corner[1]] && used[corner[2]] &&
+              (edges == NULL || find_middles(edges, corner, mesh->triangle_mid + 3 * kept));
     if (keep[t]) memmove(mesh->triangles + 3 * kept++, corner, 3 * sizeof *corner);
   }
   squeeze_arrays(&mesh->triangle_data, keep, kept);
@@ -292,6 +337,8 @@ static void drop_unused_nodes(vsc_mesh *mesh, const uint8_t *used, uint32_t *pla
     mesh->corners[i] = place[mesh->corners[i]];
   for (size_t i = 0; i < 3 * mesh->triangle_count; i++)
     mesh->triangles[i] = place[mesh->triangles[i]];
+  for (size_t i = 0; i < 3 * mesh->triangle_count && mesh->triangle_mid != NULL; i++)
+    mesh->triangle_mid[i] = place[mesh->triangle_mid[i]];
   squeeze_arrays(&mesh->node_data, used, kept);
   mesh->report.unused_nodes = mesh->node_count - kept;
   mesh->node_count = kept;
@@ -301,14 +348,24 @@ static vsc_status drop_unused(vsc_mesh *mesh, const uint8_t *used, vsc_error *er
 {
   uint8_t *keep = NULL;
   uint32_t *place = NULL;
-  const bool memory = VSC_NEW(keep, mesh->triangle_count) && VSC_NEW(place, mesh->node_count);
-  if (memory) {
-    drop_loose_triangles(mesh, used, keep);
+  vsc_edges edges = {0};
+  const bool quadratic = vsc_mesh_is_quadratic(mesh);
+  vsc_status status = VSC_OK;
+  vsc_free(mesh->triangle_mid);
+  mesh->triangle_mid = NULL;
+  if (quadratic) status = vsc_edges_list(mesh, &edges, error);
+  if (status == VSC_OK &&
+      (!VSC_NEW(keep, mesh->triangle_count) || !VSC_NEW(place, mesh->node_count) ||
+       (quadratic && !VSC_NEW(mesh->triangle_mid, 3 * mesh->triangle_count))))
+    status = vsc_fail_memory(error, "the mesh's node numbers");
+  if (status == VSC_OK) {
+    drop_loose_triangles(mesh, used, quadratic ? &edges : NULL, keep);
     drop_unused_nodes(mesh, used, place);
   }
+  vsc_edges_free(&edges);
   vsc_free(keep);
   vsc_free(place);
-  return memory ? VSC_OK : vsc_fail_memory(error, "the mesh's node numbers");
+  return status;
 }
 
 static vsc_status check_shapes(vsc_mesh *mesh, const char *name, vsc_error *error)
@@ -317,8 +374,9 @@ static vsc_status check_shapes(vsc_mesh *mesh, const char *name, vsc_error *erro
   vsc_status status = check_elements(mesh, name, error);
   if (status != VSC_OK) return status;
   turn_left_handed(mesh);
-  status = check_jacobians(mesh, name, error);
+  status = vsc_mesh_check_folds(mesh, name, error);
   if (status == VSC_OK && has_unlike_faces(mesh)) status = check_conforming(mesh, name, error);
+  if (status == VSC_OK && has_quadratic(mesh)) status = check_middles(mesh, name, error);
   return status;
 }
 

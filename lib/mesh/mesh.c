@@ -48,6 +48,7 @@ void vsc_mesh_free(vsc_mesh *mesh)
   vsc_free(mesh->start);
   vsc_free(mesh->corners);
   vsc_free(mesh->triangles);
+  vsc_free(mesh->triangle_mid);
   vsc_free(mesh->node_source);
   vsc_free(mesh->element_source);
   vsc_arrays_free(&mesh->node_data);
@@ -164,8 +165,30 @@ static double flux(const double *at[VSC_MOST_CORNERS], int i, int j, int k)
   return 6 * vsc_tet_volume(at[0], at[i], at[j], at[k]);
 }
 
+double vsc_mesh_jacobian(const vsc_mesh *mesh, size_t element, const vsc_cell_rule *rule, int q)
+{
+  const uint32_t *corner = vsc_mesh_corners(mesh, element);
+  double J[3][3] = {{0}}, normal[3];
+  for (int i = 0; i < vsc_mesh_kind(mesh, element)->corners; i++)
+    for (int k = 0; k < 3; k++)
+      for (int a = 0; a < 3; a++)
+        J[k][a] += rule->D[q][k][i] * mesh->nodes[3 * (size_t)corner[i] + (size_t)a];
+  vsc_cross(J[0], J[1], normal);
+  return vsc_dot(normal, J[2]);
+}
+
+static double sum_of_points(const vsc_mesh *mesh, size_t element)
+{
+  const vsc_cell_rule rule = vsc_cell_rule_of((vsc_cell)mesh->kinds[element]);
+  double volume = 0;
+  for (int q = 0; q < rule.points; q++)
+    volume += rule.weight[q] * vsc_mesh_jacobian(mesh, element, &rule, q);
+  return volume;
+}
+
 double vsc_mesh_element_volume(const vsc_mesh *mesh, size_t element)
 {
+  if (mesh->kinds[element] == VSC_TET10) return sum_of_points(mesh, element);
   const vsc_cell_kind *kind = vsc_mesh_kind(mesh, element);
   const uint32_t *corner = vsc_mesh_corners(mesh, element);
   const double *at[VSC_MOST_CORNERS];
@@ -186,7 +209,7 @@ double vsc_mesh_element_volume(const vsc_mesh *mesh, size_t element)
 void vsc_mesh_element_centre(const vsc_mesh *mesh, size_t element, double centre[3])
 {
   const uint32_t *corner = vsc_mesh_corners(mesh, element);
-  const int corners = vsc_mesh_kind(mesh, element)->corners;
+  const int corners = vsc_mesh_kind(mesh, element)->vertices;
   for (int axis = 0; axis < 3; axis++) {
     double sum = 0;
     for (int i = 0; i < corners; i++) sum += mesh->nodes[3 * (size_t)corner[i] + axis];

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A volume mesh as it came from a file or from arrays: nodes, elements (tetrahedra, hexahedra,
-// wedges, pyramids, in any mixture), surface triangles, and the named arrays that lie on them.
+// wedges, pyramids, in any mixture, or quadratic tetrahedra), surface triangles, and the named arrays that lie on them.
 // Lengths in mm, whatever the file's unit was.
 #ifndef VSC_MESH_MESH_H
 #define VSC_MESH_MESH_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -33,7 +34,8 @@ typedef struct vsc_mesh_report {
   size_t unused_nodes;     // points that no element (on a surface: no triangle) uses, dropped
   size_t ignored_cells;    // cells that are neither elements nor triangles
   char ignored_kinds[128]; // their kinds and counts, in words; empty when none
-  size_t loose_triangles;  // triangles dropped because one of their points is on no element
+  size_t loose_triangles;  // triangles dropped because one of their points is on no element, or (of
+                           // quadratic elements) one of their edges
 } vsc_mesh_report;
 
 // Nodes, elements and triangles are in the order of the file. A mesh may have no elements but
@@ -48,6 +50,8 @@ typedef struct vsc_mesh {
                              // tets: element_count x 4
   size_t triangle_count;     // triangles given by the file; 0 when it has none
   uint32_t *triangles;       // triangle_count x 3
+  uint32_t *triangle_mid;    // triangle_count x 3: of quadratic elements the nodes in the middle of
+                             // edges 01, 12, 20, which vsc_mesh_clean finds; else NULL
   uint32_t *node_source;     // node_count: the point's number in the file
   uint32_t *element_source;  // element_count: the cell's number in the file
   vsc_arrays node_data;
@@ -74,6 +78,12 @@ static inline const uint32_t *vsc_mesh_corners(const vsc_mesh *mesh, size_t elem
 static inline const vsc_cell_kind *vsc_mesh_kind(const vsc_mesh *mesh, size_t element)
 {
   return &vsc_cells[mesh->kinds[element]];
+}
+
+// Whether its elements are quadratic: all are then, of a clean mesh.
+static inline bool vsc_mesh_is_quadratic(const vsc_mesh *mesh)
+{
+  return mesh->element_count > 0 && mesh->kinds[0] == VSC_TET10;
 }
 
 // "12 tetrahedra, 1 wedge" for the counts of each kind, "no elements" when all are 0. Writes at most
@@ -104,8 +114,9 @@ void vsc_arrays_hint(const vsc_arrays *arrays, const char *name, char *text, siz
 // numbering: a mesh without elements and triangles, node numbers out of range, non-finite nodes of
 // elements, repeated nodes, degenerate elements (|volume| < 1e-12 of the cube of the longest edge),
 // folded ones (a Jacobian that is not positive at a point of vsc_cell_rule_of), and quadrilateral
-// faces on which triangles of another element lie. Turns left-handed elements: a tet's last two
-// corners and a pyramid's corners 1 and 3 are exchanged, a hexahedron's bottom and top, a wedge's
+// faces on which triangles of another element lie; of quadratic tets neighbours that do not share the
+// middles of their common edges, and other kinds beside them. Turns left-handed elements: a tet's last
+// two corners and a pyramid's corners 1 and 3 are exchanged, a hexahedron's bottom and top, a wedge's
 // triangles. Drops nodes that no element uses, with their data, and triangles that touch such a
 // node, with theirs. A mesh of triangles only is a surface: its triangles and their nodes stay,
 // degenerate ones (area < 1e-12 of the longest edge squared) are refused. Fills the report
@@ -118,11 +129,19 @@ vsc_status vsc_mesh_clean(vsc_mesh *mesh, const char *name, vsc_error *error);
 vsc_status vsc_mesh_from_arrays(size_t node_count, const double *nodes, size_t element_count,
                                 const uint32_t *tets, vsc_mesh **mesh, vsc_error *error);
 
+// Refuses (VSC_INPUT) elements with a Jacobian that is not positive at a point of vsc_cell_rule_of, as
+// vsc_mesh_clean does; for meshes whose nodes were moved since.
+vsc_status vsc_mesh_check_folds(const vsc_mesh *mesh, const char *name, vsc_error *error);
+
+// det J at point `q` of the rule of the element's kind, J_ka = sum_i d N_i / d xi_k x_ia, mm^3.
+double vsc_mesh_jacobian(const vsc_mesh *mesh, size_t element, const vsc_cell_rule *rule, int q);
+
 // The volume of an element, mm^3, exact for straight edges: the flux through its faces, each
-// four-cornered face being the mean of its two pairs of triangles.
+// four-cornered face being the mean of its two pairs of triangles; of a quadratic tet the sum over
+// the points of vsc_cell_rule_of, as a model has it.
 double vsc_mesh_element_volume(const vsc_mesh *mesh, size_t element);
 
-// The mean of an element's corners, mm.
+// The mean of an element's vertices, mm.
 void vsc_mesh_element_centre(const vsc_mesh *mesh, size_t element, double centre[3]);
 
 // The smallest box round all nodes, mm.

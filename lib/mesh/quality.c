@@ -114,9 +114,10 @@ vsc_element_quality vsc_mesh_element_quality(const vsc_mesh *mesh, size_t elemen
   vsc_element_quality quality = {.volume = vsc_mesh_element_volume(mesh, element)};
   double sum, least, largest;
   measure_edges(mesh, element, &sum, &least, &largest);
-  const double root = cbrt(3 * quality.volume);
-  quality.shape =
-      mesh->kinds[element] == VSC_TET ? 12 * root * root / sum : scaled_jacobian(mesh, element);
+  const double root = cbrt(3 * vsc_tet_volume(corner(mesh, element, 0), corner(mesh, element, 1),
+                                              corner(mesh, element, 2), corner(mesh, element, 3)));
+  const bool tet = vsc_mesh_kind(mesh, element)->vertices == 4;
+  quality.shape = tet ? 12 * root * root / sum : scaled_jacobian(mesh, element);
   quality.edge_ratio = sqrt(largest / least);
   measure_dihedrals(mesh, element, &quality);
   return quality;

@@ -14,7 +14,8 @@ enum { VSC_WORST_ELEMENTS = 5 };
 // The shape of one element.
 typedef struct vsc_element_quality {
   double shape;         // tet: the mean ratio 12 (3 V)^(2/3) / (sum of the six squared edge
-                        // lengths) (Liu and Joe, BIT 34, 1994). Other kinds: the scaled Jacobian,
+                        // lengths) (Liu and Joe, BIT 34, 1994), of a quadratic one that of its
+                        // corners. Other kinds: the scaled Jacobian,
                         // det of the unit vectors along the three edges at a corner, least over the
                         // corners (at a pyramid's apex: over the four triples of edges) and divided
                         // by that of the element with equal edges. 1 for such an element, towards 0

@@ -19,13 +19,18 @@ void vsc_node_set_free(vsc_node_set *set)
 void vsc_surface_free(vsc_surface *surface)
 {
   vsc_free(surface->triangles);
+  vsc_free(surface->mid);
   *surface = (vsc_surface){0};
 }
 
-static void add_face(vsc_surface *surface, const int face[4], const uint32_t *corner)
+static void add_face(vsc_surface *surface, const vsc_cell_kind *kind, const int face[4],
+                     const uint32_t *corner)
 {
   uint32_t cut[2][3];
   const int count = vsc_face_cut(corner, face, cut);
+  for (int i = 0; i < 3 && surface->mid != NULL; i++)
+    surface->mid[3 * surface->count + (size_t)i] =
+        corner[vsc_cell_middle(kind, face[i], face[(i + 1) % 3])];
   memcpy(surface->triangles + 3 * surface->count, cut, (size_t)count * sizeof *cut);
   surface->count += (size_t)count;
 }
@@ -53,14 +58,17 @@ vsc_status vsc_boundary(const vsc_mesh *mesh, vsc_surface *boundary, vsc_error *
   for (size_t e = 0; e < mesh->element_count; e++)
     for (int i = 0; i < vsc_mesh_kind(mesh, e)->face_count; i++)
       if (topology.neighbours[e][i] < 0) count += vsc_mesh_kind(mesh, e)->faces[i][3] < 0 ? 1 : 2;
-  if (!VSC_NEW(boundary->triangles, 3 * count)) {
+  if (!VSC_NEW(boundary->triangles, 3 * count) ||
+      (vsc_mesh_is_quadratic(mesh) && !VSC_NEW(boundary->mid, 3 * count))) {
+    vsc_surface_free(boundary);
     vsc_topology_free(&topology);
     return vsc_fail_memory(error, "the mesh's boundary");
   }
   for (size_t e = 0; e < mesh->element_count; e++)
     for (int i = 0; i < vsc_mesh_kind(mesh, e)->face_count; i++)
       if (topology.neighbours[e][i] < 0)
-        add_face(boundary, vsc_mesh_kind(mesh, e)->faces[i], vsc_mesh_corners(mesh, e));
+        add_face(boundary, vsc_mesh_kind(mesh, e), vsc_mesh_kind(mesh, e)->faces[i],
+                 vsc_mesh_corners(mesh, e));
   vsc_topology_free(&topology);
   return VSC_OK;
 }
@@ -112,7 +120,10 @@ static vsc_status mark_triangle_array(const vsc_mesh *mesh, const vsc_selector *
   if (status != VSC_OK) return status;
   for (size_t t = 0; t < mesh->triangle_count; t++)
     if (takes(selector, array->values[t]))
-      for (int i = 0; i < 3; i++) marked[mesh->triangles[3 * t + i]] = 1;
+      for (int i = 0; i < 3; i++) {
+        marked[mesh->triangles[3 * t + i]] = 1;
+        if (mesh->triangle_mid != NULL) marked[mesh->triangle_mid[3 * t + i]] = 1;
+      }
   return VSC_OK;
 }
 
@@ -154,6 +165,8 @@ static vsc_status mark_plane(const vsc_mesh *mesh, const vsc_selector *selector,
 static void mark_triangles(const vsc_surface *surface, uint8_t *marked)
 {
   for (size_t i = 0; i < 3 * surface->count; i++) marked[surface->triangles[i]] = 1;
+  for (size_t i = 0; i < 3 * surface->count && surface->mid != NULL; i++)
+    marked[surface->mid[i]] = 1;
 }
 
 static vsc_status mark_surface(const vsc_selector *selector, const vsc_surface *surfaces,

@@ -36,6 +36,13 @@ int vsc_mesh_split(const vsc_mesh *mesh, size_t element, uint32_t tets[VSC_MOST_
     memcpy(tets[0], corners, 4 * sizeof *corners);
     return 1;
   }
+  if (mesh->kinds[element] == VSC_TET10) {
+    static const int parts[8][4] = {{0, 4, 6, 7}, {4, 1, 5, 8}, {6, 5, 2, 9}, {7, 8, 9, 3},
+                                    {4, 9, 5, 6}, {4, 9, 6, 7}, {4, 9, 7, 8}, {4, 9, 8, 5}};
+    for (int t = 0; t < 8; t++)
+      for (int i = 0; i < 4; i++) tets[t][i] = corners[parts[t][i]];
+    return 8;
+  }
   const vsc_cell_kind *kind = vsc_mesh_kind(mesh, element);
   const double flat = FLAT * fabs(vsc_mesh_element_volume(mesh, element));
   int least = 0, count = 0;

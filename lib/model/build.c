@@ -285,6 +285,22 @@ static vsc_status build_elements(const vsc_mesh *mesh, const vsc_axes *axes,
   return status;
 }
 
+// What knows corners only.
+static vsc_status check_order(const vsc_mesh *mesh, const vsc_definition *definition,
+                              vsc_error *error)
+{
+  const char *key = NULL;
+  if (!vsc_mesh_is_quadratic(mesh)) return VSC_OK;
+  if (definition->masses == VSC_MASS_VORONOI) key = "masses: voronoi";
+  if (definition->kept_volume != VSC_KEEP_NONE) key = "keep_volume";
+  if (definition->membrane_count > 0) key = "membranes";
+  if (key == NULL) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT,
+                  "%s: not with quadratic tetrahedra: leave it out, or use a mesh of linear tetrahedra "
+                  "without mesh.order: 2",
+                  key);
+}
+
 static vsc_status build(const vsc_mesh *mesh, const vsc_axes *axes,
                         const vsc_definition *definition, uint32_t *material_of, uint8_t *mixed,
                         vsc_model *model, vsc_error *error)
@@ -295,7 +311,8 @@ static vsc_status build(const vsc_mesh *mesh, const vsc_axes *axes,
   model->safety = definition->safety;
   model->solve = definition->solve;
   model->masses = definition->masses;
-  vsc_status status = assign_materials(mesh, definition, material_of, error);
+  vsc_status status = check_order(mesh, definition, error);
+  if (status == VSC_OK) status = assign_materials(mesh, definition, material_of, error);
   if (status == VSC_OK) status = build_materials(definition, model, error);
   if (status == VSC_OK) status = vsc_terms_selections(mesh, definition, model, error);
   if (status == VSC_OK)
@@ -325,6 +342,11 @@ vsc_status vsc_model_build(const vsc_mesh *mesh, const vsc_axes *axes,
     return vsc_fail(error, VSC_INPUT,
                     "fibers: axes of %zu elements for a mesh of %zu; give one frame per element",
                     axes->count, mesh->element_count);
+  if (axes != NULL && axes->points > 1 && !vsc_mesh_is_quadratic(mesh))
+    return vsc_fail(error, VSC_INPUT,
+                    "fibers: axes of %d frames per element for a mesh of linear ones; make axes with "
+                    "vsc_axes_create_for",
+                    axes->points);
   if (axes != NULL && !vsc_axes_valid(axes))
     return vsc_fail(error, VSC_INPUT,
                     "fibers: a frame is not orthonormal and right-handed; make frames with "

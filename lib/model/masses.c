@@ -141,6 +141,12 @@ void vsc_lumped_volumes(const vsc_mesh *mesh, size_t element, double volumes[VSC
   const int corners = vsc_mesh_kind(mesh, element)->corners;
   const vsc_cell_rule rule = vsc_cell_rule_of((vsc_cell)mesh->kinds[element]);
   for (int c = 0; c < corners; c++) volumes[c] = 0;
+  if (mesh->kinds[element] == VSC_TET10) {
+    // the row sums of corners would be negative: int N_c^2 dV, scaled
+    const double volume = vsc_mesh_element_volume(mesh, element);
+    for (int c = 0; c < corners; c++) volumes[c] = volume * (c < 4 ? 1.0 / 36 : 4.0 / 27);
+    return;
+  }
   for (int q = 0; q < rule.points; q++) {
     double h[3][3] = {{0}}, dual[3];
     for (int k = 0; k < 3; k++)

@@ -6,7 +6,9 @@
 #include "mesh/mesh.h"
 
 // Row sums of the consistent mass at density 1: volumes[c] = int N_c dV, mm^3, for each corner of
-// `element`; a quarter each of a tet.
+// `element`; a quarter each of a tet. Of a quadratic tet the diagonal of the consistent mass scaled to
+// the element's (Hinton, Rock & Zienkiewicz 1976), as with straight edges: 1/36 of the volume to each
+// corner, 4/27 to each middle.
 void vsc_lumped_volumes(const vsc_mesh *mesh, size_t element, double volumes[VSC_MOST_CORNERS]);
 
 // masses[n] (node_count) = density x the volume of what is nearest to node n, mg: each element (of

@@ -27,6 +27,7 @@ typedef enum vsc_family {
   VSC_HEXES = VSC_HEX,
   VSC_WEDGES = VSC_WEDGE,
   VSC_PYRAMIDS = VSC_PYRAMID,
+  VSC_TETS10 = VSC_TET10,
   VSC_SPRINGS_ON_EDGES = VSC_CELLS,  // classical springs
   VSC_TRIANGLES,                     // of membranes
   VSC_BENDS,                         // a membrane's triangles with their neighbours
@@ -259,7 +260,7 @@ typedef struct vsc_model {
 } vsc_model;
 
 // Builds the model of `definition` on `mesh` with the elements' `axes` (NULL: none are known, all
-// elements are passive with global axes). Nothing is kept of the arguments. VSC_INPUT for what
+// elements are passive with global axes; one frame for all points of an element will do). Nothing is kept of the arguments. VSC_INPUT for what
 // does not fit together: a region without material, a missing array, an empty set, a surface
 // that is not there, an active material without fibres, axes that are not
 // orthonormal. The caller owns *model.

@@ -60,7 +60,7 @@ static vsc_status fill_cell(const filling *fill, size_t element, size_t index, i
   const vsc_patch *patch = fill->patch;
   const vsc_cell_rule *rule = &model->rules[patch->family];
   const uint32_t *corner = vsc_mesh_corners(fill->mesh, element);
-  const double *frame = fill->axes ? fill->axes->frames + 9 * element : global_axes;
+  const double *frame = fill->axes ? vsc_axes_frame(fill->axes, element, 0) : global_axes;
   const size_t k = patch->first_pack + index, slot = VSC_WIDTH * k + (size_t)lane;
   vsc_frame *frames = (vsc_frame *)(uintptr_t)vsc_pack_frames(model, patch, k);
   double x[VSC_MOST_CORNERS][3];
@@ -74,7 +74,8 @@ static vsc_status fill_cell(const filling *fill, size_t element, size_t index, i
     for (int i = 0; i < 3; i++)
       for (int c = 0; c < corners; c++)
         for (int d = 0; d < 3; d++) h[i][d] += rule->D[q][i][c] * x[c][d];
-    frames[q].V[lane] = rule->weight[q] * vsc_stencil_frame(h, frame, T);
+    const double *own = fill->axes ? vsc_axes_frame(fill->axes, element, q) : frame;
+    frames[q].V[lane] = rule->weight[q] * vsc_stencil_frame(h, own, T);
     model->total_volume += frames[q].V[lane];
     for (int a = 0; a < 3; a++)
       for (int i = 0; i < 3; i++) frames[q].T[a][i][lane] = T[a][i];

@@ -53,6 +53,11 @@ static vsc_status check_laws(const vsc_mesh *mesh, const uint32_t *material_of,
   for (size_t e = 0; e < mesh->element_count; e++) {
     const vsc_material *material = &model->materials[material_of[e]];
     const bool known = mesh->kinds[e] == VSC_TET || mesh->kinds[e] == VSC_HEX;
+    if (material->law == VSC_LAW_CLASSICAL && mesh->kinds[e] == VSC_TET10)
+      return vsc_fail(error, VSC_INPUT,
+                      "materials: element %u, of material %s, is a %s, whose edges bend: law: classical "
+                      "has no springs for them: use law: springs, or leave out mesh.order",
+                      mesh->element_source[e], material->name, vsc_mesh_kind(mesh, e)->name);
     if (material->law == VSC_LAW_PAPER && !known)
       return vsc_fail(error, VSC_INPUT,
                       "materials: element %u, of material %s, is a %s; law: paper knows tetrahedra "

@@ -22,25 +22,68 @@ double vsc_cpu_seconds(void)
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-// The fibres of a helix hang on named surfaces, so those are found here already.
-static vsc_status make_fibers(vsc_problem *problem, vsc_error *error)
+// The named surfaces, which fibres and curved edges hang on, and the whole boundary.
+typedef struct named_surfaces {
+  size_t count;
+  vsc_surface *items, boundary;
+} named_surfaces;
+
+static vsc_status select_surfaces(const vsc_problem *problem, named_surfaces *surfaces,
+                                  vsc_error *error)
 {
   const vsc_definition *definition = &problem->scene->definition;
-  vsc_surface *surfaces, boundary = {0};
-  if (!VSC_NEW(surfaces, definition->surface_count)) return vsc_fail_memory(error, "surfaces");
-  vsc_status status = vsc_boundary(problem->mesh, &boundary, error);
-  size_t made = 0;
-  while (status == VSC_OK && made < definition->surface_count) {
-    status = vsc_select_surface(problem->mesh, &boundary, &definition->surfaces[made],
-                                &surfaces[made], error);
-    made++;
+  *surfaces = (named_surfaces){0};
+  if (!VSC_NEW(surfaces->items, definition->surface_count))
+    return vsc_fail_memory(error, "surfaces");
+  vsc_status status = vsc_boundary(problem->mesh, &surfaces->boundary, error);
+  while (status == VSC_OK && surfaces->count < definition->surface_count) {
+    status = vsc_select_surface(problem->mesh, &surfaces->boundary,
+                                &definition->surfaces[surfaces->count],
+                                &surfaces->items[surfaces->count], error);
+    surfaces->count++;
   }
+  return status;
+}
+
+static void free_surfaces(named_surfaces *surfaces)
+{
+  for (size_t s = 0; s < surfaces->count; s++) vsc_surface_free(&surfaces->items[s]);
+  vsc_surface_free(&surfaces->boundary);
+  vsc_free(surfaces->items);
+}
+
+static vsc_status bend_surface(vsc_problem *problem, const named_surfaces *surfaces,
+                               const vsc_curved_def *curved, vsc_error *error)
+{
+  const vsc_surface *surface = &surfaces->boundary;
+  for (size_t s = 0; s < surfaces->count; s++)
+    if (strcmp(surfaces->items[s].name, curved->surface) == 0) surface = &surfaces->items[s];
+  return vsc_mesh_bend(problem->mesh, &surfaces->boundary, surface, curved, error);
+}
+
+// The mesh as the scene wants it: its order, and edges bent onto ellipsoids.
+static vsc_status shape_mesh(vsc_problem *problem, const char *file, vsc_error *error)
+{
+  const vsc_scene *scene = problem->scene;
+  named_surfaces surfaces;
+  vsc_status status = VSC_OK;
+  if (scene->mesh_order == 2) status = vsc_mesh_raise(&problem->mesh, scene->mesh_file, error);
+  if (status != VSC_OK || scene->curved_count == 0) return status;
+  status = select_surfaces(problem, &surfaces, error);
+  for (size_t k = 0; k < scene->curved_count && status == VSC_OK; k++)
+    status = bend_surface(problem, &surfaces, &scene->curved[k], error);
+  free_surfaces(&surfaces);
+  return vsc_in_scene(file, status, error);
+}
+
+static vsc_status make_fibers(vsc_problem *problem, vsc_error *error)
+{
+  named_surfaces surfaces;
+  vsc_status status = select_surfaces(problem, &surfaces, error);
   if (status == VSC_OK)
-    status = vsc_fibers_make(problem->mesh, &problem->scene->fibers, surfaces, made, &problem->axes,
-                             &problem->fibers, error);
-  for (size_t s = 0; s < made; s++) vsc_surface_free(&surfaces[s]);
-  vsc_surface_free(&boundary);
-  vsc_free(surfaces);
+    status = vsc_fibers_make(problem->mesh, &problem->scene->fibers, surfaces.items, surfaces.count,
+                             &problem->axes, &problem->fibers, error);
+  free_surfaces(&surfaces);
   return status;
 }
 
@@ -96,6 +139,7 @@ vsc_status vsc_problem_load(const char *file, const char *const *settings, size_
   vsc_status status = vsc_scene_read(file, settings, setting_count, &made->scene, error);
   if (status == VSC_OK)
     status = vsc_vtk_read_mesh(made->scene->mesh_file, made->scene->mesh_unit, &made->mesh, error);
+  if (status == VSC_OK) status = shape_mesh(made, file, error);
   if (status == VSC_OK) status = vsc_in_scene(file, make_fibers(made, error), error);
   if (status == VSC_OK) status = vsc_in_scene(file, make_vessels(made, error), error);
   if (status == VSC_OK)

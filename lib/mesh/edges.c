@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/edges.h"
+
+#include <stdlib.h>
+
+#include "base/mem.h"
+
+static int compare_ends(const vsc_edge *x, const vsc_edge *y)
+{
+  if (x->low != y->low) return x->low < y->low ? -1 : 1;
+  if (x->high != y->high) return x->high < y->high ? -1 : 1;
+  return 0;
+}
+
+static int compare_edges(const void *a, const void *b)
+{
+  const vsc_edge *x = a, *y = b;
+  const int ends = compare_ends(x, y);
+  return ends != 0 ? ends : (x->middle > y->middle) - (x->middle < y->middle);
+}
+
+static vsc_edge edge_between(uint32_t a, uint32_t b, uint32_t middle)
+{
+  return (vsc_edge){.low = a < b ? a : b, .high = a < b ? b : a, .middle = middle};
+}
+
+vsc_status vsc_edges_list(const vsc_mesh *mesh, vsc_edges *edges, vsc_error *error)
+{
+  size_t count = 0, kept = 0;
+  *edges = (vsc_edges){0};
+  for (size_t e = 0; e < mesh->element_count; e++)
+    count += (size_t)vsc_mesh_kind(mesh, e)->edge_count;
+  if (!VSC_NEW(edges->items, count)) return vsc_fail_memory(error, "the mesh's edges");
+  for (size_t e = 0; e < mesh->element_count; e++) {
+    const vsc_cell_kind *kind = vsc_mesh_kind(mesh, e);
+    const uint32_t *corner = vsc_mesh_corners(mesh, e);
+    for (int k = 0; k < kind->edge_count; k++) {
+      const int *ends = kind->edges[k], middle = vsc_cell_middle(kind, ends[0], ends[1]);
+      edges->items[edges->count++] = edge_between(corner[ends[0]], corner[ends[1]],
+                                                  middle < 0 ? VSC_NO_MIDDLE : corner[middle]);
+    }
+  }
+  qsort(edges->items, count, sizeof *edges->items, compare_edges);
+  for (size_t k = 0; k < count; k++)
+    if (kept == 0 || compare_ends(&edges->items[kept - 1], &edges->items[k]) != 0)
+      edges->items[kept++] = edges->items[k];
+  edges->count = kept;
+  return VSC_OK;
+}
+
+void vsc_edges_free(vsc_edges *edges)
+{
+  vsc_free(edges->items);
+  *edges = (vsc_edges){0};
+}
+
+const vsc_edge *vsc_edges_find(const vsc_edges *edges, uint32_t a, uint32_t b)
+{
+  const vsc_edge wanted = edge_between(a, b, 0);
+  size_t first = 0, end = edges->count;
+  while (first < end) {
+    const size_t middle = first + (end - first) / 2;
+    const int order = compare_ends(&edges->items[middle], &wanted);
+    if (order == 0) return &edges->items[middle];
+    if (order < 0)
+      first = middle + 1;
+    else
+      end = middle;
+  }
+  return NULL;
+}

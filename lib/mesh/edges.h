@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The edges of a mesh's elements, each once.
+#ifndef VSC_MESH_EDGES_H
+#define VSC_MESH_EDGES_H
+
+#include "mesh/mesh.h"
+
+#define VSC_NO_MIDDLE UINT32_MAX  // what an edge of a linear element has in its middle
+
+typedef struct vsc_edge {
+  uint32_t low, high;  // nodes at its ends, low < high
+  uint32_t middle;     // the node in its middle, or VSC_NO_MIDDLE
+} vsc_edge;
+
+typedef struct vsc_edges {
+  size_t count;
+  vsc_edge *items;  // count, by low, then high; owned
+} vsc_edges;
+
+// Lists the edges of all elements. Where neighbours disagree on the middle of an edge it is that of the
+// smallest number. The content of *edges is owned by the caller; VSC_SYSTEM when memory is short.
+vsc_status vsc_edges_list(const vsc_mesh *mesh, vsc_edges *edges, vsc_error *error);
+
+void vsc_edges_free(vsc_edges *edges);  // frees the content
+
+// The edge between nodes a and b, in any order, or NULL.
+const vsc_edge *vsc_edges_find(const vsc_edges *edges, uint32_t a, uint32_t b);
+
+#endif
