@@ -33,7 +33,7 @@ static void open_element(random_body *body, vsc_cell kind, const double (*x)[3],
 
 // An axis: weights of its far and near end, and its length at rest.
 typedef struct drawn_axis {
-  double far[8], near[8], rest;
+  double far[VSC_MOST_CORNERS], near[VSC_MOST_CORNERS], rest;
 } drawn_axis;
 
 static void point_of(const double weights[8], const double (*x)[3], int corners, double point[3])
@@ -190,7 +190,8 @@ static void tets_obey_the_printed_formulas(void **state)
 }
 
 // The trilinear coordinates and weights of a point in a hexahedron, by Newton from `xi`.
-static void locate(const double (*x)[3], const double point[3], double xi[3], double weights[8])
+static void locate(const double (*x)[3], const double point[3], double xi[3],
+                   double weights[VSC_MOST_CORNERS])
 {
   for (int newton = 0; newton < 30; newton++) {
     double at[3], miss[3], h[3][3] = {{0}}, dual[3], D[3][VSC_MOST_CORNERS];
@@ -210,7 +211,8 @@ static void locate(const double (*x)[3], const double point[3], double xi[3], do
 // How far along the axis the far (side 1) or near (-1) face lies: by steps, then halving them, as
 // long as the trilinear coordinates stay within [-1, 1]. Out there the trilinear weights are the
 // bilinear ones of the face.
-static double leave_hex(const double (*x)[3], const double axis[3], double side, double weights[8])
+static double leave_hex(const double (*x)[3], const double axis[3], double side,
+                        double weights[VSC_MOST_CORNERS])
 {
   double xi[3] = {0}, centre[3], s = 0;
   barycentre_of(x, 8, centre);
