@@ -47,18 +47,13 @@ void vsc_face_push_tangent(const vsc_face_rule *rule, const double x[][3],
   }
 }
 
-static uint32_t face_node(const vsc_pressure *load, size_t face, int i)
-{
-  return i < 3 ? load->triangles[3 * face + (size_t)i] : load->mid[3 * face + (size_t)i - 3];
-}
-
 static void gather_face(const vsc_pressure *load, size_t face, const double *x,
                         uint32_t node[VSC_FACE_NODES], double at[][3])
 {
-  for (int i = 0; i < load->rule.nodes; i++) {
-    node[i] = face_node(load, face, i);
-    memcpy(at[i], x + 4 * (size_t)node[i], sizeof at[i]);
-  }
+  const uint32_t *mid = load->mid != NULL ? load->mid + 3 * face : NULL;
+  memcpy(node, load->triangles + 3 * face, 3 * sizeof *node);
+  if (mid != NULL) memcpy(node + 3, mid, 3 * sizeof *node);
+  vsc_face_places(node, mid, x, 4, at);
 }
 
 // ---- pressures

@@ -19,6 +19,7 @@ void vsc_node_set_free(vsc_node_set *set)
 void vsc_surface_free(vsc_surface *surface)
 {
   vsc_free(surface->triangles);
+  vsc_free(surface->mid);
   *surface = (vsc_surface){0};
 }
 

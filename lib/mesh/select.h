@@ -20,7 +20,8 @@ typedef enum vsc_select_kind {
 } vsc_select_kind;
 
 // Describes a set of nodes or, read as a surface, the boundary triangles all of whose nodes are in
-// that set (for VSC_SELECT_TRIANGLE_ARRAY: the boundary triangles that the file lists).
+// that set (for VSC_SELECT_TRIANGLE_ARRAY: the boundary triangles that the file lists). Of quadratic
+// elements the corners of triangles decide, so that a surface does not depend on the order.
 typedef struct vsc_selector {
   char name[VSC_NAME];   // what supports and loads call it
   vsc_select_kind kind;
@@ -43,6 +44,8 @@ typedef struct vsc_surface {
   char name[VSC_NAME];
   size_t count;
   uint32_t *triangles;  // count x 3, turned so that the normal points out of the tissue; owned
+  uint32_t *mid;        // count x 3: the nodes in the middle of edges 01, 12, 20; NULL where elements
+                        // are linear; owned
 } vsc_surface;
 
 // The boundary of the mesh: faces that belong to one element, turned outwards, in the order of

@@ -106,13 +106,16 @@ vsc_status vsc_select_surface(const vsc_mesh *mesh, const vsc_surface *boundary,
   vsc_status status = mark_selected(mesh, boundary, selector, marked, error);
   size_t count = 0;
   for (size_t t = 0; t < boundary->count; t++) count += marked[t];
-  if (status == VSC_OK && !VSC_NEW(surface->triangles, 3 * count))
+  if (status == VSC_OK && (!VSC_NEW(surface->triangles, 3 * count) ||
+                           (boundary->mid != NULL && !VSC_NEW(surface->mid, 3 * count))))
     status = vsc_fail_memory(error, "a surface");
-  if (status == VSC_OK)
-    for (size_t t = 0; t < boundary->count; t++)
-      if (marked[t])
-        memcpy(surface->triangles + 3 * surface->count++, boundary->triangles + 3 * t,
-               3 * sizeof *surface->triangles);
+  for (size_t t = 0; t < boundary->count && status == VSC_OK; t++) {
+    if (!marked[t]) continue;
+    const size_t to = 3 * surface->count++;
+    memcpy(surface->triangles + to, boundary->triangles + 3 * t, 3 * sizeof *surface->triangles);
+    if (boundary->mid != NULL)
+      memcpy(surface->mid + to, boundary->mid + 3 * t, 3 * sizeof *surface->mid);
+  }
   vsc_free(marked);
   return status;
 }

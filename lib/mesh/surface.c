@@ -7,18 +7,20 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
+#include "mesh/face.h"
 
 enum { OFF_PATH = -1 };
 
 // A directed edge, kept as its ascending pair of nodes and the way it runs.
 typedef struct edge {
   uint32_t low, high;
-  int32_t sense;  // +1 from low to high, -1 from high to low
+  int32_t sense;    // +1 from low to high, -1 from high to low
+  uint32_t middle;  // the node in its middle, on quadratic meshes
 } edge;
 
 // An edge of the caps, against the surface's own.
 typedef struct rim_edge {
-  uint32_t from, to;
+  uint32_t from, to, middle;
 } rim_edge;
 
 // What the tracing of rims works on.
@@ -55,7 +57,8 @@ static void list_edges(const vsc_surface *surface, edge *edges)
     for (int i = 0; i < 3; i++) {
       const uint32_t a = surface->triangles[3 * t + i];
       const uint32_t b = surface->triangles[3 * t + (i + 1) % 3];
-      edges[3 * t + i] = a < b ? (edge){a, b, 1} : (edge){b, a, -1};
+      const uint32_t middle = surface->mid != NULL ? surface->mid[3 * t + i] : 0;
+      edges[3 * t + i] = a < b ? (edge){a, b, 1, middle} : (edge){b, a, -1, middle};
     }
   qsort(edges, 3 * surface->count, sizeof *edges, compare_edges);
 }
@@ -69,9 +72,9 @@ static size_t list_rim_edges(const edge *edges, size_t count, rim_edge *rim)
     for (last = first; last < count && edges[last].low == edges[first].low &&
                        edges[last].high == edges[first].high; last++)
       net += edges[last].sense;
-    const uint32_t low = edges[first].low, high = edges[first].high;
-    for (; net > 0; net--) rim[found++] = (rim_edge){high, low};
-    for (; net < 0; net++) rim[found++] = (rim_edge){low, high};
+    const uint32_t low = edges[first].low, high = edges[first].high, middle = edges[first].middle;
+    for (; net > 0; net--) rim[found++] = (rim_edge){high, low, middle};
+    for (; net < 0; net++) rim[found++] = (rim_edge){low, high, middle};
   }
   qsort(rim, found, sizeof *rim, compare_rim_edges);
   return found;
@@ -152,6 +155,23 @@ static vsc_status trace_rims(rim_edge *edges, size_t count, vsc_cavity *cavity, 
   return status;
 }
 
+// The place after place k of a rim.
+static size_t following(const vsc_cavity *cavity, size_t rim, size_t k)
+{
+  return k + 1 < cavity->rim_start[rim + 1] ? k + 1 : cavity->rim_start[rim];
+}
+
+static void find_rim_middles(const rim_edge *edges, size_t count, vsc_cavity *cavity)
+{
+  for (size_t rim = 0; rim < cavity->rim_count; rim++)
+    for (size_t k = cavity->rim_start[rim]; k < cavity->rim_start[rim + 1]; k++) {
+      const rim_edge wanted = {cavity->rim_nodes[k],
+                               cavity->rim_nodes[following(cavity, rim, k)], 0};
+      const rim_edge *found = bsearch(&wanted, edges, count, sizeof wanted, compare_rim_edges);
+      cavity->rim_mid[k] = found->middle;
+    }
+}
+
 static vsc_status find_rims(const vsc_surface *surface, vsc_cavity *cavity, vsc_error *error)
 {
   edge *edges;
@@ -161,6 +181,9 @@ static vsc_status find_rims(const vsc_surface *surface, vsc_cavity *cavity, vsc_
     list_edges(surface, edges);
     const size_t count = list_rim_edges(edges, 3 * surface->count, rim);
     status = trace_rims(rim, count, cavity, error);
+    if (status == VSC_OK && surface->mid != NULL && !VSC_NEW(cavity->rim_mid, count))
+      status = vsc_fail_memory(error, "a cavity's rims");
+    if (status == VSC_OK && surface->mid != NULL) find_rim_middles(rim, count, cavity);
   } else {
     status = vsc_fail_memory(error, "a cavity's edges");
   }
@@ -178,23 +201,48 @@ vsc_status vsc_cavity_make(const vsc_surface *surface, size_t node_count, vsc_ca
     return vsc_fail(error, VSC_INPUT, "surface %s has no triangles: it encloses no volume",
                     surface->name);
   for (size_t i = 0; i < 3 * surface->count; i++)
-    if (surface->triangles[i] >= node_count)
+    if (surface->triangles[i] >= node_count ||
+        (surface->mid != NULL && surface->mid[i] >= node_count))
       return vsc_fail(error, VSC_INPUT,
                       "surface %s: triangle %zu names node %u, the mesh has nodes 0 to %zu: make "
                       "the surface from this mesh",
-                      surface->name, i / 3, surface->triangles[i], node_count - 1);
-  if (!VSC_NEW(cavity->triangles, 3 * surface->count)) return vsc_fail_memory(error, "a cavity");
+                      surface->name, i / 3,
+                      surface->triangles[i] >= node_count ? surface->triangles[i] : surface->mid[i],
+                      node_count - 1);
+  if (!VSC_NEW(cavity->triangles, 3 * surface->count) ||
+      (surface->mid != NULL && !VSC_NEW(cavity->mid, 3 * surface->count))) {
+    vsc_cavity_free(cavity);
+    return vsc_fail_memory(error, "a cavity");
+  }
   memcpy(cavity->triangles, surface->triangles, 3 * surface->count * sizeof *surface->triangles);
+  if (surface->mid != NULL)
+    memcpy(cavity->mid, surface->mid, 3 * surface->count * sizeof *surface->mid);
   const vsc_status status = find_rims(surface, cavity, error);
   if (status != VSC_OK) vsc_cavity_free(cavity);
   return status;
 }
 
+static void renumber(uint32_t *nodes, size_t count, const uint32_t *number)
+{
+  for (size_t k = 0; k < count && nodes != NULL; k++) nodes[k] = number[nodes[k]];
+}
+
+void vsc_cavity_renumber(vsc_cavity *cavity, const uint32_t *number)
+{
+  const size_t rim = cavity->rim_start[cavity->rim_count];
+  renumber(cavity->triangles, 3 * cavity->triangle_count, number);
+  renumber(cavity->mid, 3 * cavity->triangle_count, number);
+  renumber(cavity->rim_nodes, rim, number);
+  renumber(cavity->rim_mid, rim, number);
+}
+
 void vsc_cavity_free(vsc_cavity *cavity)
 {
   vsc_free(cavity->triangles);
+  vsc_free(cavity->mid);
   vsc_free(cavity->rim_start);
   vsc_free(cavity->rim_nodes);
+  vsc_free(cavity->rim_mid);
   *cavity = (vsc_cavity){0};
 }
 
@@ -209,36 +257,81 @@ static void rim_centre(const vsc_cavity *cavity, size_t rim, const double *posit
   }
 }
 
-// The position of the node after place k of a rim.
-static const double *following(const vsc_cavity *cavity, size_t rim, size_t k,
-                               const double *positions, size_t stride)
+// The places of a face's six nodes.
+static void gather_face(const uint32_t corner[3], const uint32_t mid[3], const double *positions,
+                        size_t stride, double x[VSC_FACE_NODES][3])
 {
-  const size_t next = k + 1 < cavity->rim_start[rim + 1] ? k + 1 : cavity->rim_start[rim];
-  return positions + stride * cavity->rim_nodes[next];
+  for (int i = 0; i < 3; i++) {
+    memcpy(x[i], positions + stride * corner[i], sizeof x[i]);
+    memcpy(x[3 + i], positions + stride * mid[i], sizeof x[i]);
+  }
 }
 
-static double cap_volume(const vsc_cavity *cavity, size_t rim, const double origin[3],
-                         const double *positions, size_t stride)
+// The volume between `origin` and a face of six nodes: int (x - origin) . (t_1 x t_2) / 3, which is of
+// degree 4 and so summed exactly.
+static double curved_volume(const vsc_face_rule *rule, const double origin[3],
+                            double x[VSC_FACE_NODES][3])
+{
+  double volume = 0;
+  for (int q = 0; q < rule->points; q++) {
+    double t1[3], t2[3], normal[3], at[3] = {0};
+    vsc_face_tangents(rule, q, (const double(*)[3])x, t1, t2, normal);
+    for (int i = 0; i < rule->nodes; i++)
+      for (int a = 0; a < 3; a++) at[a] += rule->N[q][i] * (x[i][a] - origin[a]);
+    volume += rule->weight[q] * vsc_dot(at, normal) / 3;
+  }
+  return volume;
+}
+
+// The triangle of a cap on the edge from rim place k, curved as that edge is.
+static double curved_cap(const vsc_cavity *cavity, const vsc_face_rule *rule, size_t rim, size_t k,
+                         const double origin[3], const double centre[3], const double *positions,
+                         size_t stride)
+{
+  double x[VSC_FACE_NODES][3];
+  memcpy(x[0], positions + stride * cavity->rim_nodes[k], sizeof x[0]);
+  memcpy(x[1], positions + stride * cavity->rim_nodes[following(cavity, rim, k)], sizeof x[1]);
+  memcpy(x[2], centre, sizeof x[2]);
+  memcpy(x[3], positions + stride * cavity->rim_mid[k], sizeof x[3]);
+  for (int a = 0; a < 3; a++) {
+    x[4][a] = 0.5 * (x[1][a] + x[2][a]);
+    x[5][a] = 0.5 * (x[2][a] + x[0][a]);
+  }
+  return curved_volume(rule, origin, x);
+}
+
+static double cap_volume(const vsc_cavity *cavity, const vsc_face_rule *rule, size_t rim,
+                         const double origin[3], const double *positions, size_t stride)
 {
   double centre[3], volume = 0;
   rim_centre(cavity, rim, positions, stride, centre);
   for (size_t k = cavity->rim_start[rim]; k < cavity->rim_start[rim + 1]; k++)
-    volume -= vsc_tet_volume(origin, positions + stride * cavity->rim_nodes[k],
-                             following(cavity, rim, k, positions, stride), centre);
+    volume -= cavity->mid != NULL
+                  ? curved_cap(cavity, rule, rim, k, origin, centre, positions, stride)
+                  : vsc_tet_volume(origin, positions + stride * cavity->rim_nodes[k],
+                                   positions + stride * cavity->rim_nodes[following(cavity, rim, k)],
+                                   centre);
   return volume;
 }
 
 double vsc_cavity_volume(const vsc_cavity *cavity, const double *positions, size_t stride)
 {
   const double *origin = positions + stride * cavity->triangles[0];
+  const vsc_face_rule rule = vsc_face_rule_of(6, VSC_FACE_FLUX);
   double volume = 0;
   for (size_t t = 0; t < cavity->triangle_count; t++) {
     const uint32_t *node = cavity->triangles + 3 * t;
+    if (cavity->mid != NULL) {
+      double x[VSC_FACE_NODES][3];
+      gather_face(node, cavity->mid + 3 * t, positions, stride, x);
+      volume -= curved_volume(&rule, origin, x);
+      continue;
+    }
     volume -= vsc_tet_volume(origin, positions + stride * node[0], positions + stride * node[1],
                              positions + stride * node[2]);
   }
   for (size_t rim = 0; rim < cavity->rim_count; rim++)
-    volume += cap_volume(cavity, rim, origin, positions, stride);
+    volume += cap_volume(cavity, &rule, rim, origin, positions, stride);
   return volume;
 }
 
@@ -251,11 +344,29 @@ static double triangle_area(const double a[3], const double b[3], const double c
   return vsc_norm(normal) / 2;
 }
 
+static double curved_area(const vsc_face_rule *rule, double x[VSC_FACE_NODES][3])
+{
+  double area = 0;
+  for (int q = 0; q < rule->points; q++) {
+    double t1[3], t2[3], normal[3];
+    vsc_face_tangents(rule, q, (const double(*)[3])x, t1, t2, normal);
+    area += rule->weight[q] * vsc_norm(normal);
+  }
+  return area;
+}
+
 double vsc_surface_area(const vsc_surface *surface, const double *positions, size_t stride)
 {
+  const vsc_face_rule rule = vsc_face_rule_of(6, VSC_FACE_FLUX);
   double area = 0;
   for (size_t t = 0; t < surface->count; t++) {
     const uint32_t *node = surface->triangles + 3 * t;
+    if (surface->mid != NULL) {
+      double x[VSC_FACE_NODES][3];
+      gather_face(node, surface->mid + 3 * t, positions, stride, x);
+      area += curved_area(&rule, x);
+      continue;
+    }
     area += triangle_area(positions + stride * node[0], positions + stride * node[1],
                           positions + stride * node[2]);
   }

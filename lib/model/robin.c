@@ -19,10 +19,10 @@ typedef struct assembly {
 
 static void gather(const assembly *a, size_t face, uint32_t node[VSC_FACE_NODES], double x[][3])
 {
-  for (size_t i = 0; i < (size_t)a->rule.nodes; i++) {
-    node[i] = i < 3 ? a->triangles[3 * face + i] : a->mid[3 * face + i - 3];
-    memcpy(x[i], a->rest + 4 * (size_t)node[i], sizeof x[i]);
-  }
+  const uint32_t *mid = a->mid != NULL ? a->mid + 3 * face : NULL;
+  memcpy(node, a->triangles + 3 * face, 3 * sizeof *node);
+  if (mid != NULL) memcpy(node + 3, mid, 3 * sizeof *node);
+  vsc_face_places(node, mid, a->rest, 4, x);
 }
 
 static uint64_t pair_of(uint32_t row, uint32_t column)

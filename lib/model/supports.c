@@ -142,6 +142,15 @@ vsc_status vsc_terms_supports(const vsc_definition *definition, vsc_model *model
   return status;
 }
 
+// The model's numbers of `count` nodes of the mesh, owned by the caller; NULL when memory is short.
+static uint32_t *renumbered(const uint32_t *nodes, size_t count, const uint32_t *number)
+{
+  uint32_t *list;
+  if (!VSC_NEW(list, count)) return NULL;
+  for (size_t k = 0; k < count; k++) list[k] = number[nodes[k]];
+  return list;
+}
+
 static vsc_status add_pressure(const vsc_definition *definition, size_t p, const uint32_t *number,
                                vsc_model *model, vsc_error *error)
 {
@@ -156,11 +165,11 @@ static vsc_status add_pressure(const vsc_definition *definition, size_t p, const
   vsc_copy_name(load->surface, def->surface);
   load->peak = def->peak;
   load->triangle_count = triangles->count;
-  if (!VSC_NEW(load->triangles, 3 * triangles->count))
+  load->triangles = renumbered(triangles->triangles, 3 * triangles->count, number);
+  if (triangles->mid) load->mid = renumbered(triangles->mid, 3 * triangles->count, number);
+  if (load->triangles == NULL || (triangles->mid != NULL && load->mid == NULL))
     return vsc_fail_memory(error, "a pressure load");
-  for (size_t k = 0; k < 3 * triangles->count; k++)
-    load->triangles[k] = number[triangles->triangles[k]];
-  load->rule = vsc_face_rule_of(3, VSC_FACE_FLUX);
+  load->rule = vsc_face_rule_of(triangles->mid ? 6 : 3, VSC_FACE_FLUX);
   return vsc_curve_build(&def->curve, definition->end_time, &load->curve, error);
 }
 
@@ -179,12 +188,14 @@ static vsc_status add_robin(const vsc_robin_def *def, size_t r, const uint32_t *
   robin->damping = def->damping;
   robin->normal = def->normal;
   model->terms.damping |= def->damping > 0;
-  uint32_t *triangles;
-  if (!VSC_NEW(triangles, 3 * faces->count)) return vsc_fail_memory(error, "springs on a surface");
-  for (size_t k = 0; k < 3 * faces->count; k++) triangles[k] = number[faces->triangles[k]];
+  uint32_t *triangles = renumbered(faces->triangles, 3 * faces->count, number);
+  uint32_t *mid = faces->mid ? renumbered(faces->mid, 3 * faces->count, number) : NULL;
+  const bool made = triangles != NULL && (faces->mid == NULL || mid != NULL);
   const vsc_status status =
-      vsc_robin_fill(model->rest, faces->count, triangles, NULL, robin, error);
+      made ? vsc_robin_fill(model->rest, faces->count, triangles, mid, robin, error)
+           : vsc_fail_memory(error, "springs on a surface");
   vsc_free(triangles);
+  vsc_free(mid);
   return status;
 }
 

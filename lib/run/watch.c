@@ -153,11 +153,7 @@ static vsc_status make_cavities(const vsc_problem *problem, vsc_watch *watch, vs
     status = vsc_cavity_make(&model->surfaces[s], model->node_count, &watch->cavities[c], error);
     if (status != VSC_OK) break;
     watch->cavity_count++;
-    vsc_cavity *cavity = &watch->cavities[c];
-    for (size_t k = 0; k < 3 * cavity->triangle_count; k++)
-      cavity->triangles[k] = number[cavity->triangles[k]];
-    for (size_t k = 0; k < cavity->rim_start[cavity->rim_count]; k++)
-      cavity->rim_nodes[k] = number[cavity->rim_nodes[k]];
+    vsc_cavity_renumber(&watch->cavities[c], number);
   }
   vsc_free(number);
   return status;
