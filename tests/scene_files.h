@@ -82,7 +82,7 @@ static const char full[] =
     "        time_unit: 0.1 s\n"                                                           // 48
     "volume: element\n"                                                                 // 49
     "supports:\n"                                                                       // 50
-    "  - {set: base, held: [x, z]}\n"                                                   // 51
+    "  - {set: base, motion: [0 mm, 0 mm, 1 cm], curve: {kind: ramp}, held: [x, z]}\n"  // 51
     "gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]\n"                                           // 52
     "pressures:\n"                                                                      // 53
     "  - {surface: endo, peak: 120 mmHg, curve: {kind: tanh_pair, start: 50 ms}}\n"     // 54
@@ -94,7 +94,10 @@ static const char full[] =
     "  arrays: [displacement, fiber]\n"                                                 // 60
     "  signals: 2 ms\n"                                                                 // 61
     "  cavities: [endo, skin]\n"                                                        // 62
-    "  checkpoint: 0.1 s\n";                                                            // 63
+    "  checkpoint: 0.1 s\n"                                                             // 63
+    "robin:\n"                                                                          // 64
+    "  - {surface: endo, stiffness: 1e8 Pa/m, damping: 5e3 Pa s/m, direction: normal}\n" // 65
+    "  - {surface: boundary, stiffness: 2 kPa/mm}\n";                                    // 66
 
 // clang-format on
 

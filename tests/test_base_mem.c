@@ -66,10 +66,10 @@ static void test_failing_comes_once_and_after_its_count(void **state)
 }
 
 // Everything that allocates: an active material, arrays of amplitude and delay, node-averaged
-// volume, a surface under pressure, a support, weight.
+// volume, a surface under pressure and on springs, a support that moves, weight.
 static vsc_definition full_definition(vsc_material_def *material, vsc_selector *face,
                                       vsc_selector *set, vsc_support_def *support,
-                                      vsc_pressure_def *pressure)
+                                      vsc_pressure_def *pressure, vsc_robin_def *robin)
 {
   *material = vsc_default_material();
   for (int a = 0; a < 3; a++) material->axial[a] = material->angular[a] = material->damping[a] = 10;
@@ -84,17 +84,19 @@ static vsc_definition full_definition(vsc_material_def *material, vsc_selector *
       .name = "top", .kind = VSC_SELECT_NODE_ARRAY, .array = "z1", .low = 1, .high = 1};
   *set = (vsc_selector){
       .name = "bottom", .kind = VSC_SELECT_NODE_ARRAY, .array = "z0", .low = 1, .high = 1};
-  *support = (vsc_support_def){.set = "bottom", .held = {1, 1, 1}};
+  *support = (vsc_support_def){.set = "bottom", .held = {1, 1, 1}, .motion = {0, 0, 1}};
+  *robin = (vsc_robin_def){.surface = "top", .stiffness = 1, .damping = 1};
   *pressure =
       (vsc_pressure_def){.surface = "top", .peak = 1, .curve = vsc_default_curve(VSC_CURVE_RAMP)};
   vsc_definition definition = vsc_default_definition();
   definition.material_count = definition.surface_count = definition.set_count = 1;
-  definition.support_count = definition.pressure_count = 1;
+  definition.support_count = definition.pressure_count = definition.robin_count = 1;
   definition.materials = material;
   definition.surfaces = face;
   definition.sets = set;
   definition.supports = support;
   definition.pressures = pressure;
+  definition.robins = robin;
   definition.gravity[2] = -0.00981;
   definition.end_time = 100;
   return definition;
@@ -124,7 +126,9 @@ static void test_every_allocation_may_fail(void **state)
   vsc_selector face, set;
   vsc_support_def support;
   vsc_pressure_def pressure;
-  const vsc_definition definition = full_definition(&material, &face, &set, &support, &pressure);
+  vsc_robin_def robin;
+  const vsc_definition definition =
+      full_definition(&material, &face, &set, &support, &pressure, &robin);
   const vsc_block_shape shape = {.cells = {3, 3, 3}, .size = {9, 9, 9}, .tets_per_cell = 5};
   vsc_mesh *mesh;
   assert_int_equal(vsc_block_mesh(&shape, &mesh, NULL), VSC_OK);

@@ -89,6 +89,14 @@ static void check_the_rest(const vsc_scene *scene)
   assert_int_equal(d->supports[0].held[0], 1);
   assert_int_equal(d->supports[0].held[1], 0);
   assert_int_equal(d->supports[0].held[2], 1);
+  assert_true(d->supports[0].motion[0] == 0 && d->supports[0].motion[2] == 10);
+  assert_int_equal(d->supports[0].curve.kind, VSC_CURVE_RAMP);
+  assert_int_equal(d->robin_count, 2);
+  assert_string_equal(d->robins[0].surface, "endo");
+  assert_close(d->robins[0].stiffness, 100, 1e-14, 0);
+  assert_close(d->robins[0].damping, 5, 1e-14, 0);
+  assert_true(d->robins[0].normal && !d->robins[1].normal);
+  assert_true(d->robins[1].stiffness == 2 && d->robins[1].damping == 0);
   assert_close(d->gravity[2], -0.00981, 1e-14, 0);
   assert_int_equal(d->pressure_count, 2);
   assert_close(d->pressures[0].peak, 120 * 0.133322387415, 1e-12, 0);

@@ -30,6 +30,8 @@ static void values_of_every_quantity(void **state)
       {"1060 kg/m3", VSC_DENSITY, 1.06},  {"1.06 g/cm3", VSC_DENSITY, 1.06},
       {"10 Pa s", VSC_VISCOSITY, 10},     {"2 kPa ms", VSC_VISCOSITY, 2},
       {"9.81 m/s2", VSC_ACCELERATION, 0.00981},
+      {"1e8 Pa/m", VSC_BED_STIFFNESS, 100}, {"3 N/mm3", VSC_BED_STIFFNESS, 3000},
+      {"5e3 Pa s/m", VSC_BED_DAMPING, 5},
       {"180 deg", VSC_ANGLE, M_PI},       {"35 degree", VSC_ANGLE, 35 * M_PI / 180},
       {"0.1 deg", VSC_ANGLE, M_PI / 1800}, {"1 rad", VSC_ANGLE, 1},
       {"90 °", VSC_ANGLE, M_PI / 2},      {"0.8", VSC_NUMBER, 0.8},
@@ -73,6 +75,7 @@ static void wrong_texts_say_what_was_expected(void **state)
       {"60 %", VSC_ANGLE, "not an angle"},      {"5 kPa", VSC_ANGLE, "35 deg"},
       {"5 mm", VSC_NUMBER, "plain number"},     {"five", VSC_NUMBER, "no number"},
       {"1 kg", VSC_DENSITY, "1.06 g/cm3"},      {"1 Pa", VSC_VISCOSITY, "10 Pa s"},
+      {"1 kPa", VSC_BED_STIFFNESS, "1e5 Pa/m"}, {"1 Pa/m", VSC_BED_DAMPING, "5e3 Pa s/m"},
       {"1 m/s", VSC_ACCELERATION, "9.81 m/s2"}, {"1 m2", VSC_LENGTH, "3 mm"},
       {"1 aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa"
        "aaaaaaaaaaaaaaaaaaaaaaaaa", VSC_LENGTH, "too long"},

@@ -8,14 +8,14 @@
 #include "model/fiber_def.h"
 
 // A definition that obeys every rule: two materials, an active one with a table, one surface,
-// two node sets, a support and a pressure.
+// two node sets, a support, a pressure, and springs on the surface.
 static vsc_definition make_good(void)
 {
   vsc_definition d = vsc_default_definition();
   assert_true(VSC_NEW(d.materials, 2) && VSC_NEW(d.surfaces, 1) && VSC_NEW(d.sets, 2) &&
-              VSC_NEW(d.supports, 1) && VSC_NEW(d.pressures, 1));
+              VSC_NEW(d.supports, 1) && VSC_NEW(d.pressures, 1) && VSC_NEW(d.robins, 1));
   d.material_count = 2;
-  d.surface_count = d.support_count = d.pressure_count = 1;
+  d.surface_count = d.support_count = d.pressure_count = d.robin_count = 1;
   d.set_count = 2;
   for (int i = 0; i < 2; i++) {
     d.materials[i] = vsc_default_material();
@@ -40,6 +40,7 @@ static vsc_definition make_good(void)
   d.supports[0] = (vsc_support_def){.set = "base", .held = {0, 0, 1}};
   d.pressures[0] = (vsc_pressure_def){.surface = "endo", .peak = 16,
                                       .curve = vsc_default_curve(VSC_CURVE_HALF_SINE)};
+  d.robins[0] = (vsc_robin_def){.surface = "endo", .stiffness = 1};
   d.end_time = 100;
   return d;
 }
@@ -142,6 +143,15 @@ SPOIL(set_of_surface, vsc_copy_name(d->sets[1].array, "edo"))
 SPOIL(support_set, vsc_copy_name(d->supports[0].set, "bse"))
 SPOIL(boundary_set, vsc_copy_name(d->supports[0].set, "boundary"))
 SPOIL(held, d->supports[0].held[2] = 0)
+SPOIL(free_motion, d->supports[0].motion[1] = 2)
+SPOIL(motion_nan, d->supports[0].motion[2] = NAN)
+SPOIL(motion_curve, d->supports[0].curve = vsc_default_curve(VSC_CURVE_RAMP);
+      d->supports[0].curve.duration = 0)
+SPOIL(kept_motion, d->supports[0].motion[2] = 1; d->kept_volume = VSC_KEEP_TOTAL)
+SPOIL(robin_surface, vsc_copy_name(d->robins[0].surface, "edo"))
+SPOIL(robin_stiffness, d->robins[0].stiffness = -1)
+SPOIL(robin_damping, d->robins[0].damping = NAN)
+SPOIL(robin_nothing, d->robins[0].stiffness = 0)
 SPOIL(pressure_surface, vsc_copy_name(d->pressures[0].surface, "endocard"))
 SPOIL(gravity, d->gravity[1] = NAN)
 SPOIL(end_time, d->end_time = 0)
@@ -195,6 +205,14 @@ static void every_rule_names_its_key(void **state)
       {support_set, "supports[0].set: ", "the nearest is base"},
       {boundary_set, "supports[0].set: ", "under node_sets"},
       {held, "supports[0].held: ", "x, y, z"},
+      {free_motion, "supports[0].motion: 2 mm: ", "`held`"},
+      {motion_nan, "supports[0].motion: ", "finite"},
+      {motion_curve, "supports[0].curve.duration: ", "above zero"},
+      {kept_motion, "supports[0].motion: 1 mm: ", "keep_volume"},
+      {robin_surface, "robin[0].surface: ", "the nearest is endo"},
+      {robin_stiffness, "robin[0].stiffness: -1 kPa/mm: ", "zero or more"},
+      {robin_damping, "robin[0].damping: ", "zero or more"},
+      {robin_nothing, "robin[0].stiffness: 0 kPa/mm: ", "above zero"},
       {pressure_surface, "pressures[0].surface: ", "the nearest is endo"},
       {gravity, "gravity: ", "finite"},
       {end_time, "time.end: 0 ms: ", "above zero"},

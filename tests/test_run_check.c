@@ -71,6 +71,22 @@ static void test_the_shipped_beat(void **state)
   assert_int_equal(warnings(), 0);
 }
 
+// The end of the block is 10 x 10 mm.
+static void test_beds_and_moved_supports(void **state)
+{
+  (void)state;
+  must("$V check block.yaml -t 1 --set 'robin=[{surface: end, stiffness: 2 kPa/mm, damping: 5e3 Pa s/m, "
+       "direction: normal}]' --set 'supports[0].motion=[1 mm, 0 mm, 0.5 mm]'");
+  assert_holds(line_of("robin"), "end: 32 triangles, 1 cm2, along the normal; stiffness 2 kPa/mm, in "
+                                 "all 200 mN/mm; damping 5 kPa ms/mm, in all 500 mN ms/mm");
+  assert_holds(line_of("supports"), "left (25 nodes) held in x y z, moved by (1, 0, 0.5) mm; 25 of");
+  assert_int_equal(warnings(), 0);
+  must("$V check block.yaml -t 1 --set 'materials[0].damping={f: 0 Pa s, s: 0 Pa s, n: 0 Pa s}' --set "
+       "'robin=[{surface: end, damping: 1 Pa s/m}]'");
+  assert_null(strstr(said, "axial damping"));
+  assert_holds(line_of("robin"), "in all directions");
+}
+
 // The numbers of the step and of the cost are those of the run.
 static void test_step_and_cost_are_those_of_the_run(void **state)
 {
@@ -222,6 +238,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_the_shipped_beat),
+      cmocka_unit_test(test_beds_and_moved_supports),
       cmocka_unit_test(test_step_and_cost_are_those_of_the_run),
       cmocka_unit_test(test_given_step),
       cmocka_unit_test(test_warnings_about_materials),

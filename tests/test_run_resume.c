@@ -30,7 +30,7 @@ static void assert_same_checkpoints(const char *run, const char *other)
     size_t rows, columns;
   } parts[] = {{"position", 175, 4},      {"velocity", 175, 4}, {"acceleration", 175, 4},
                {"stiffest_mode", 175, 4}, {"works", 5, 1},      {"time_and_steps", 2, 1},
-               {"step_limit", 6, 1},      {"watch", 4, 1},      {"signal_extrema", 294, 1}};
+               {"step_limit", 6, 1},      {"watch", 4, 1},      {"signal_extrema", 342, 1}};
   const char *const runs[2] = {run, other};
   for (size_t p = 0; p < sizeof parts / sizeof parts[0]; p++) {
     double values[2][175 * 4] = {{0}};
@@ -97,6 +97,34 @@ static void test_cut_in_two(void **state)
   must("$V run block.yaml -o cut -t 1 --resume");
   assert_string_equal(summary("cut", "outcome"), "finished");
   assert_same_runs("cut", "whole");
+}
+
+// With springs and dashpots on a surface and a support that moves, too: any number of threads, cut at a time
+// that is no event, and gone on.
+static void test_moved_supports(void **state)
+{
+  (void)state;
+  static const char moved[] =
+      "$V run block.yaml -q --set 'robin=[{surface: skin, stiffness: 1 kPa/mm, damping: 2 kPa ms/mm, "
+      "direction: normal}]' --set 'supports[0].motion=[1 mm, 0 mm, 0.5 mm]' "
+      "--set 'supports[0].curve={kind: half_sine, duration: 15 ms}'";
+  char command[512];
+  const struct {
+    const char *options, *outcome;
+  } runs[] = {{"-t 1 -o moved", "finished"},
+              {"-t 2 -o moved_cut --stop '7.77 ms'", "stopped"},
+              {"-t 3 -o moved_cut --resume", "finished"}};
+  for (size_t k = 0; k < 3; k++) {
+    snprintf(command, sizeof command, "%s %s", moved, runs[k].options);
+    must(command);
+    assert_string_equal(summary(k == 0 ? "moved" : "moved_cut", "outcome"), runs[k].outcome);
+  }
+  assert_same_runs("moved_cut", "moved");
+  static char rows[PROGRAM_TEXT];
+  load_text("moved/signals.csv", rows, sizeof rows);
+  assert_holds(rows, "energy_springs [mJ]");
+  assert_holds(rows, "support_left_x [mN],support_left_y [mN],support_left_z [mN],work_supports [mJ]");
+  assert_string_not_equal(summary("moved", "model_hash"), summary("whole", "model_hash"));
 }
 
 // A run that has come to its end goes on when the end is put off: curves without a period do not
@@ -188,6 +216,8 @@ static void test_changed_scene_is_refused(void **state)
                                         "--set 'materials[0].active.tension=9 kPa'",
                                         "--set 'supports[0].held=[x, y]'",
                                         "--set 'pressures[0].peak=2 kPa'",
+                                        "--set 'robin=[{surface: end, stiffness: 1 kPa/mm}]'",
+                                        "--set 'supports[0].motion=[1 mm, 0 mm, 0 mm]'",
                                         "--set 'gravity=[0 m/s2, 0 m/s2, -9.81 m/s2]'",
                                         "--set 'time.safety=0.7'",
                                         "--set volume=element",
@@ -286,6 +316,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_threads),
       cmocka_unit_test(test_cut_in_two),
+      cmocka_unit_test(test_moved_supports),
       cmocka_unit_test(test_later_end),
       cmocka_unit_test(test_cut_anywhere),
       cmocka_unit_test(test_older_checkpoint),

@@ -226,6 +226,9 @@ static vsc_status info_scene(const char *file, vsc_error *error)
     printf("  node set               %s\n", definition->sets[s].name);
   for (size_t s = 0; s < definition->support_count; s++)
     printf("  support                %s\n", definition->supports[s].set);
+  for (size_t r = 0; r < definition->robin_count; r++)
+    printf("  springs on             %s, %g kPa/mm, %g kPa ms/mm\n", definition->robins[r].surface,
+           definition->robins[r].stiffness, definition->robins[r].damping);
   for (size_t p = 0; p < definition->pressure_count; p++)
     printf("  pressure               %s, peak %g kPa\n", definition->pressures[p].surface,
            definition->pressures[p].peak);

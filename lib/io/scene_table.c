@@ -155,6 +155,8 @@ static const vsc_row vsc_scene_group_rows[] = {
      .meaning = "rigid things that no node enters"},
     {"supports", SCENE_PARTS(supports, support_count, vsc_support_group),
      .meaning = "what holds the tissue"},
+    {"robin", SCENE_PARTS(robins, robin_count, vsc_robin_group), .commented = true,
+     .meaning = "springs and dashpots per area, between a surface and its place at rest"},
     {"gravity", VECTOR(vsc_scene, definition.gravity, VSC_ACCELERATION),
      .text = "[0 m/s2, 0 m/s2, 0 m/s2]", .meaning = "default none"},
     {"pressures", SCENE_PARTS(pressures, pressure_count, vsc_pressure_group),

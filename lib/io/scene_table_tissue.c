@@ -195,9 +195,33 @@ static const vsc_row vsc_support_group_rows[] = {
     {"set", NAME(vsc_support_def, set), .needed = VSC_ALWAYS, .text = "base",
      .meaning = "one of node_sets"},
     {"held", .kind = VSC_ROW_FLAGS, AT(vsc_support_def, held), .words = directions,
-     .needed = VSC_ALWAYS, .text = "[x, y, z]", .meaning = "directions that cannot move"},
+     .needed = VSC_ALWAYS, .text = "[x, y, z]", .meaning = "directions that cannot move freely"},
+    {"motion", VECTOR(vsc_support_def, motion, VSC_LENGTH), .text = "[0 mm, 0 mm, 0 mm]",
+     .meaning = "how far held directions have moved where the curve is 1"},
+    {"curve", PART(offsetof(vsc_support_def, curve), vsc_curve_group), .commented = true,
+     .meaning = "of time, for motion"},
 };
-GROUP(, vsc_support_group, -1, .size = sizeof(vsc_support_def));
+
+static void start_support(void *target)
+{
+  *(vsc_support_def *)target = vsc_default_support();
+}
+
+GROUP(, vsc_support_group, -1, .size = sizeof(vsc_support_def), .start = start_support);
+
+static const vsc_word robin_directions[] = {{"full", false}, {"normal", true}, {NULL, 0}};
+
+static const vsc_row vsc_robin_group_rows[] = {
+    {"surface", NAME(vsc_robin_def, surface), .needed = VSC_ALWAYS, .text = "epi",
+     .meaning = "one of surfaces, or boundary"},
+    {"stiffness", QUANTITY(vsc_robin_def, stiffness, VSC_BED_STIFFNESS), .text = "1e5 Pa/m",
+     .meaning = "of the springs, per area at rest; default 0 Pa/m"},
+    {"damping", QUANTITY(vsc_robin_def, damping, VSC_BED_DAMPING), .text = "5e3 Pa s/m",
+     .meaning = "of the dashpots; default 0 Pa s/m"},
+    {"direction", CHOICE(vsc_robin_def, normal, robin_directions), .text = "full",
+     .meaning = "full, or normal: only what moves along the normal at rest is resisted"},
+};
+GROUP(, vsc_robin_group, -1, .size = sizeof(vsc_robin_def));
 
 static const vsc_row vsc_pressure_group_rows[] = {
     {"surface", NAME(vsc_pressure_def, surface), .needed = VSC_ALWAYS, .text = "endo",

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/parallel.h"
-#include "base/vec3.h"
 #include "mech/kernel.h"
+#include "mech/loads.h"
 #include "model/law_volume.h"
 
 // What the pieces of one evaluation share.
@@ -217,20 +217,6 @@ static void sum_shared(void *context, size_t piece, int thread)
   }
 }
 
-// Each node of a triangle gets -p n/6 with n = (x_1 - x_0) x (x_2 - x_0): a follower pressure.
-static void add_pressure(const vsc_pressure *load, double pressure, const double *x, double *force)
-{
-  for (size_t t = 0; t < load->triangle_count; t++) {
-    const uint32_t *node = load->triangles + 3 * t;
-    double first[3], second[3], n[3];
-    vsc_subtract(x + 4 * (size_t)node[1], x + 4 * (size_t)node[0], first);
-    vsc_subtract(x + 4 * (size_t)node[2], x + 4 * (size_t)node[0], second);
-    vsc_cross(first, second, n);
-    for (int c = 0; c < 3; c++)
-      for (int i = 0; i < 3; i++) force[4 * (size_t)node[c] + i] -= pressure * n[i] / 6;
-  }
-}
-
 void vsc_force(const vsc_model *model, const double *x, const double *w, double time,
                vsc_scratch *scratch, double *force)
 {
@@ -240,12 +226,7 @@ void vsc_force(const vsc_model *model, const double *x, const double *w, double 
   vsc_parallel_for(model->patch_count, patch_force, &e);
   const size_t shared_nodes = model->node_count - model->own_node_count;
   vsc_parallel_for((shared_nodes + NODES_PER_PIECE - 1) / NODES_PER_PIECE, sum_shared, &e);
-  for (size_t p = 0; p < model->pressure_count; p++) {
-    const double pressure = scratch->load * vsc_model_pressure(model, p, time);
-    if (pressure != 0) add_pressure(&model->pressures[p], pressure, x, force);
-  }
-  if (terms->gravity)
-    for (size_t i = 0; i < 4 * model->node_count; i++) force[i] += scratch->load * model->weight[i];
+  vsc_loads_force(model, x, w, time, scratch->load, force);
 }
 
 vsc_patch_work vsc_patch_prepare(const vsc_model *model, const vsc_patch *patch, const double *x,

@@ -6,7 +6,7 @@
 #include "mech/kernel.h"
 #include "mech/state.h"
 
-// force = sum of element forces, pressures and weight at positions `x`, velocities `w` (both
+// force = sum of element forces and loads (mech/loads.h) at positions `x`, velocities `w` (both
 // node_count x 4; `w` may be NULL when there is no damping) and `time` (ms); mN, node_count x 4.
 // Sums run in an order that does not depend on the number of threads. Uses the state's scratch
 // only.

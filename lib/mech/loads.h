@@ -11,17 +11,17 @@
 typedef void vsc_block_sink(void *context, uint32_t i, uint32_t j, const double K[9]);
 
 // Adds to `force` (mN, node_count x 4) all loads at positions x and velocities w (node_count x 4; w may be
-// NULL when nothing is damped) and `time` (ms). Sums run in an order that does not depend on the number
-// of threads.
+// NULL when nothing is damped) and `time` (ms); of pressures and weight the part `load` (1: all). Sums run
+// in an order that does not depend on the number of threads.
 void vsc_loads_force(const vsc_model *model, const double *x, const double *w, double time,
-                     double *force);
+                     double load, double *force);
 
 // stiffness_factor d(-f)/dx + damping_factor d(-f)/dv of pressures, springs and dashpots at positions x
-// (node_count x 4) and `time` (ms), handed to `sink` in blocks of two nodes of one face; both orders i, j
+// (node_count x 4) and `time` (ms), with the part `load` of the pressures, handed to `sink` in blocks of two nodes of one face; both orders i, j
 // and j, i are delivered, and a block may come several times: they are to be added. Of a pressure's
 // derivative only the symmetric part, (K + K^T)/2: all of it where the surface is closed or its rim held.
 // With a damping factor in 1/ms the blocks are in mN/mm.
-void vsc_loads_tangent(const vsc_model *model, const double *x, double time,
+void vsc_loads_tangent(const vsc_model *model, const double *x, double time, double load,
                        double stiffness_factor, double damping_factor, vsc_block_sink *sink,
                        void *context);
 

@@ -11,18 +11,16 @@
 #include "mech/element.h"
 #include "mech/energies.h"
 #include "mech/force.h"
+#include "mech/loads.h"
 #include "model/law_volume.h"
 
 vsc_status vsc_ledger_create(const vsc_model *model, vsc_ledger **ledger, vsc_error *error)
 {
-  size_t triangles = 0;
-  for (size_t p = 0; p < model->pressure_count; p++)
-    triangles += model->pressures[p].triangle_count;
   const size_t slots = model->terms.active != VSC_ACTIVE_NONE ? VSC_WIDTH * model->frame_count : 0;
   vsc_ledger *made;
   *ledger = NULL;
   if (!VSC_NEW(made, 1) || !VSC_NEW(made->stretch, slots) || !VSC_NEW(made->tension, slots) ||
-      !VSC_NEW(made->push, 6 * triangles) || !VSC_NEW(made->parts, model->patch_count)) {
+      !VSC_NEW(made->push, vsc_loads_push_count(model)) || !VSC_NEW(made->parts, model->patch_count)) {
     vsc_ledger_free(made);
     return vsc_fail_memory(error, "the energy ledger");
   }
@@ -188,35 +186,10 @@ static void observe_groups(const vsc_model *model, vsc_state *state, vsc_totals 
   }
 }
 
-// Work of the pressures since the last call: mean force on the corners times their way.
-static double pressure_work(const vsc_model *model, const vsc_state *state, double *push)
-{
-  double work = 0;
-  for (size_t p = 0; p < model->pressure_count; p++) {
-    const vsc_pressure *load = &model->pressures[p];
-    const double pressure = vsc_model_pressure(model, p, state->time);
-    for (size_t t = 0; t < load->triangle_count; t++, push += 6) {
-      const double *x[3];
-      double first[3], second[3], n[3];
-      for (int c = 0; c < 3; c++) x[c] = state->x + 4 * (size_t)load->triangles[3 * t + c];
-      vsc_subtract(x[1], x[0], first);
-      vsc_subtract(x[2], x[0], second);
-      vsc_cross(first, second, n);
-      for (int i = 0; i < 3; i++) {
-        const double force = -pressure * n[i] / 6, place = x[0][i] + x[1][i] + x[2][i];
-        work += 0.5 * (force + push[i]) * (place - push[3 + i]);
-        push[i] = force;
-        push[3 + i] = place;
-      }
-    }
-  }
-  return work;
-}
-
 static double stored_and_kinetic(const vsc_totals *totals)
 {
   return totals->kinetic + totals->axial + totals->angular + totals->volume_energy +
-         totals->membrane + totals->bending + totals->gravity_energy;
+         totals->membrane + totals->bending + totals->springs + totals->gravity_energy;
 }
 
 void vsc_observe(const vsc_model *model, vsc_state *state, vsc_ledger *ledger, bool resume,
@@ -241,8 +214,11 @@ void vsc_observe(const vsc_model *model, vsc_state *state, vsc_ledger *ledger, b
     totals->contact_work += state->contact[o].work;
     totals->contact_lost += state->contact[o].lost;
   }
+  for (size_t s = 0; s < model->moved_count; s++) totals->support_work += state->moved[s].work;
+  totals->springs = vsc_loads_energy(model, state->x);
+  totals->dissipation += vsc_loads_dissipation(model, state->v);
   if (model->terms.nodal_volume) observe_groups(model, state, totals);
-  const double pushed = pressure_work(model, state, ledger->push);
+  const double pushed = vsc_loads_pressure_work(model, state->x, state->time, ledger->push);
   if (ledger->calls > 0 && !resume) {
     ledger->active += totals->active_work;
     ledger->pressure += pushed;
@@ -258,5 +234,5 @@ void vsc_observe(const vsc_model *model, vsc_state *state, vsc_ledger *ledger, b
 double vsc_balance_error(const vsc_ledger *ledger, const vsc_totals *totals)
 {
   return stored_and_kinetic(totals) - ledger->start - ledger->active - ledger->pressure +
-         ledger->dissipated - totals->contact_work + totals->contact_lost;
+         ledger->dissipated - totals->contact_work + totals->contact_lost - totals->support_work;
 }

@@ -14,6 +14,7 @@ typedef struct vsc_totals {
   double volume_energy;          // all volume groups, uJ
   double membrane;               // membranes in their planes, uJ
   double bending;                // bending of membranes, uJ
+  double springs;                // springs on surfaces, uJ
   double gravity_energy;         // - sum m g . x, uJ, 0 at rest
   double dissipation;            // power of all damping, uJ/ms
   double momentum[3];            // sum m v, mg mm/ms
@@ -29,6 +30,7 @@ typedef struct vsc_totals {
   double inverted;     // number of elements with J <= 0 in a frame
   double contact_work;   // done by moving obstacles since the start, uJ
   double contact_lost;   // in impacts and friction since the start, uJ
+  double support_work;   // done by moving supports since the start, uJ
   double active_work;  // done by active tension since the last call on the same ledger, uJ
 } vsc_totals;
 
@@ -45,8 +47,7 @@ typedef struct vsc_ledger {
   double calls;
   double *stretch;  // frames x 4: fibre stretch at the last call; NULL when nothing is active. Owned
   double *tension;  // frames x 4: nominal active tension at the last call, kPa. Owned
-  double *
-      push;  // per pressure triangle: force on each corner and sum of the corners, 6 numbers. Owned
+  double *push;     // forces and places of the nodes under pressure (mech/loads.h). Owned
   vsc_totals *parts;  // patch_count. Owned
 } vsc_ledger;
 

@@ -33,6 +33,7 @@ static bool allocate(const vsc_model *model, vsc_state *state)
          VSC_NEW(state->contact_normal, model->obstacle_count > 0 ? 4 * n : 0) &&
          VSC_NEW(state->former, model->obstacle_count > 0 ? 4 * n : 0) &&
          VSC_NEW(state->pending, model->obstacle_count > 0 ? 4 * n : 0) &&
+         VSC_NEW(state->moved, model->moved_count) &&
          VSC_NEW(state->kept_pressure, model->kept.count) &&
          VSC_NEW(state->former_x, remembers ? 4 * n : 0) &&
          VSC_NEW(state->former_v, remembers ? 4 * n : 0);
@@ -63,6 +64,7 @@ void vsc_state_free(vsc_state *state)
   vsc_free(state->contact_normal);
   vsc_free(state->former);
   vsc_free(state->pending);
+  vsc_free(state->moved);
   vsc_free(state->kept_pressure);
   vsc_free(state->former_x);
   vsc_free(state->former_v);

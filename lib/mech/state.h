@@ -43,6 +43,17 @@ typedef struct vsc_contact_sums {
   double row_time;        // when that was, ms
 } vsc_contact_sums;
 
+// What a support that moves has done since the start.
+typedef struct vsc_moved_sums {
+  double part;        // the curve's value where its nodes are now
+  double rate;        // d part/dt of their velocities, 1/ms
+  double force[3];    // sum of all other forces on its nodes, mN
+  double work;        // done by it, uJ
+  double impulse[3];  // of its force on the nodes, in the directions that it holds, mN ms
+  double row_impulse[3];  // impulse at the last row of signals.csv, mN ms
+  double row_time;        // when that was, ms
+} vsc_moved_sums;
+
 typedef struct vsc_state {
   double time;    // ms
   double steps;   // done so far (an integer)
@@ -58,6 +69,7 @@ typedef struct vsc_state {
                               // mN ms, and the work of the obstacles behind them, uJ; likewise
   double *contact_normal;     // node_count x 4: the free part of the last one's normal, and
                               // its number; likewise
+  vsc_moved_sums *moved;  // moved_count; owned
   double *kept_pressure;  // kept.count: multiplier of each kept volume in the last step, kPa; owned
   void *keeper;           // what keeps them (solve/keep_volume.c), made when first needed
   void (*release_keeper)(void *keeper);

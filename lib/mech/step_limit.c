@@ -259,6 +259,17 @@ static bool is_taken(const vsc_model *model, const vsc_patch *patch, size_t slot
   return model->mesh_element[slot] != VSC_NO_ELEMENT;
 }
 
+// The springs of a surface, as those of one face: stiffness int N_i^2 dA on each node.
+static void add_surface_stiffness(const vsc_robin *bed, double *stiffness)
+{
+  for (size_t row = 0; row < bed->node_count; row++)
+    for (uint32_t k = bed->start[row]; k < bed->start[row + 1]; k++) {
+      const double *W = bed->blocks + 12 * (size_t)k;
+      if (bed->columns[k] == bed->nodes[row])
+        stiffness[bed->nodes[row]] += bed->stiffness * (W[0] + W[5] + W[10]) / (bed->normal ? 1 : 3);
+    }
+}
+
 void vsc_limit_stiffness(const vsc_model *model, double *stiffness)
 {
   memset(stiffness, 0, model->node_count * sizeof *stiffness);
@@ -270,6 +281,7 @@ void vsc_limit_stiffness(const vsc_model *model, double *stiffness)
     if (vsc_patch_is_solid(patch) && model->materials[patch->material].law != VSC_LAW_CLASSICAL)
       add_cell_stiffness(model, patch, stiffness);
   }
+  for (size_t r = 0; r < model->robin_count; r++) add_surface_stiffness(&model->robins[r], stiffness);
 }
 
 double vsc_limit_bound(const vsc_model *model, vsc_scratch *scratch, size_t *slot)

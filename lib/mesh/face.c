@@ -79,6 +79,16 @@ vsc_face_rule vsc_face_rule_of(int nodes, vsc_face_use use)
   return rule;
 }
 
+void vsc_face_places(const uint32_t corner[3], const uint32_t *mid, const double *positions,
+                     size_t stride, double x[][3])
+{
+  for (int i = 0; i < 3; i++)
+    for (int k = 0; k < 3; k++) {
+      x[i][k] = positions[stride * corner[i] + (size_t)k];
+      if (mid != NULL) x[3 + i][k] = positions[stride * mid[i] + (size_t)k];
+    }
+}
+
 void vsc_face_tangents(const vsc_face_rule *rule, int q, const double x[][3], double t1[3],
                        double t2[3], double n[3])
 {

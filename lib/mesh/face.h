@@ -4,6 +4,9 @@
 #ifndef VSC_MESH_FACE_H
 #define VSC_MESH_FACE_H
 
+#include <stddef.h>
+#include <stdint.h>
+
 enum { VSC_FACE_NODES = 6, VSC_FACE_POINTS = 12 };  // the most
 
 // What a rule integrates exactly.
@@ -24,6 +27,11 @@ typedef struct vsc_face_rule {
 // The rule for faces of 3 or 6 `nodes`: one point (FLUX, 3 nodes), six of degree 4 (FLUX, 6 nodes; Strang &
 // Fix 1973), twelve of degree 6 (MASS; Dunavant 1985).
 vsc_face_rule vsc_face_rule_of(int nodes, vsc_face_use use);
+
+// The places of a face's nodes: three corners and, where `mid` is not NULL, the middles of its edges.
+// Node i lies at positions[stride i .. stride i + 2].
+void vsc_face_places(const uint32_t corner[3], const uint32_t *mid, const double *positions,
+                     size_t stride, double x[][3]);
 
 // t_1 = dx/dxi and t_2 = dx/deta at point q of the face with its nodes at x, and n = t_1 x t_2, whose
 // length is the area per area of the triangle of xi and eta; all in the units of x.

@@ -162,6 +162,31 @@ static void count_materials(vsc_model *model)
   }
 }
 
+static uint64_t hash_loads(const vsc_model *model, uint64_t hash)
+{
+  for (size_t p = 0; p < model->pressure_count; p++) {
+    const vsc_pressure *load = &model->pressures[p];
+    hash = vsc_hash(hash, load->triangles, 3 * load->triangle_count * sizeof(uint32_t));
+    if (load->mid) hash = vsc_hash(hash, load->mid, 3 * load->triangle_count * sizeof(uint32_t));
+    hash = vsc_hash(hash, &load->peak, sizeof load->peak);
+    hash = vsc_hash(hash, &load->curve.hash, sizeof load->curve.hash);
+  }
+  for (size_t r = 0; r < model->robin_count; r++) {
+    const vsc_robin *robin = &model->robins[r];
+    hash = vsc_hash(hash, robin->nodes, robin->node_count * sizeof *robin->nodes);
+    hash = vsc_hash(hash, robin->blocks, 12 * robin->start[robin->node_count] * sizeof(double));
+    hash = vsc_hash(hash, &robin->stiffness, sizeof robin->stiffness);
+    hash = vsc_hash(hash, &robin->damping, sizeof robin->damping);
+  }
+  for (size_t s = 0; s < model->moved_count; s++) {
+    const vsc_moved *moved = &model->moved[s];
+    hash = vsc_hash(hash, moved->nodes, moved->node_count * sizeof *moved->nodes);
+    hash = vsc_hash(hash, moved->motion, sizeof moved->motion);
+    hash = vsc_hash(hash, &moved->curve.hash, sizeof moved->curve.hash);
+  }
+  return hash;
+}
+
 static void hash_model(vsc_model *model)
 {
   const size_t slots = VSC_WIDTH * model->pack_count;
@@ -183,12 +208,7 @@ static void hash_model(vsc_model *model)
   for (size_t m = 0; m < model->membrane_count; m++)
     hash = vsc_hash(hash, &model->membranes[m].thickness,
                     sizeof model->membranes[m] - offsetof(vsc_membrane, thickness));
-  for (size_t p = 0; p < model->pressure_count; p++) {
-    const vsc_pressure *load = &model->pressures[p];
-    hash = vsc_hash(hash, load->triangles, 3 * load->triangle_count * sizeof(uint32_t));
-    hash = vsc_hash(hash, &load->peak, sizeof load->peak);
-    hash = vsc_hash(hash, &load->curve.hash, sizeof load->curve.hash);
-  }
+  hash = hash_loads(model, hash);
   for (size_t o = 0; o < model->obstacle_count; o++) {
     const vsc_obstacle *obstacle = &model->obstacles[o];
     hash = vsc_hash(hash, &obstacle->kind, offsetof(vsc_obstacle, curve));

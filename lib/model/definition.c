@@ -37,6 +37,11 @@ vsc_obstacle_def vsc_default_obstacle(void)
   return (vsc_obstacle_def){.curve = vsc_default_curve(VSC_CURVE_CONSTANT)};
 }
 
+vsc_support_def vsc_default_support(void)
+{
+  return (vsc_support_def){.curve = vsc_default_curve(VSC_CURVE_CONSTANT)};
+}
+
 vsc_definition vsc_default_definition(void)
 {
   return (vsc_definition){.volume = VSC_VOLUME_NODAL, .safety = 0.8, 
@@ -76,11 +81,14 @@ void vsc_definition_free(vsc_definition *definition)
     free_curve(&definition->pressures[i].curve);
   for (size_t i = 0; i < definition->obstacle_count; i++)
     free_curve(&definition->obstacles[i].curve);
+  for (size_t i = 0; i < definition->support_count; i++)
+    free_curve(&definition->supports[i].curve);
   vsc_free(definition->materials);
   vsc_free(definition->surfaces);
   vsc_free(definition->sets);
   vsc_free(definition->supports);
   vsc_free(definition->pressures);
+  vsc_free(definition->robins);
   vsc_free(definition->vessels);
   vsc_free(definition->membranes);
   vsc_free(definition->obstacles);

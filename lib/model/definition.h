@@ -192,8 +192,21 @@ typedef enum vsc_volume_kind {
 
 typedef struct vsc_support_def {
   char set[VSC_NAME];  // node set
-  int held[3];         // 1: the node does not move in x, y, z
+  int held[3];         // 1: in x, y, z the node moves by the support's motion only
+  double motion[3];    // held directions are at rest + motion . curve(t), mm; default 0
+  vsc_curve_def curve; // default constant
 } vsc_support_def;
+
+enum { VSC_MOST_MOVED = 8 };  // supports with a motion
+
+// Springs and dashpots per area between a surface and its place at rest: the traction
+// -(stiffness u + damping v), either of all of u and v or of (u . N) N with the normal N at rest.
+typedef struct vsc_robin_def {
+  char surface[VSC_NAME];
+  double stiffness;  // kPa/mm; default 0
+  double damping;    // kPa ms/mm; default 0
+  bool normal;       // default false: all directions
+} vsc_robin_def;
 
 typedef struct vsc_pressure_def {
   char surface[VSC_NAME];  // surface it acts on, pushing the tissue against the outward normal
@@ -255,6 +268,8 @@ typedef struct vsc_definition {
   vsc_support_def *supports;  // owned
   size_t pressure_count;
   vsc_pressure_def *pressures;  // owned
+  size_t robin_count;
+  vsc_robin_def *robins;  // owned
   size_t membrane_count;
   vsc_membrane_def *membranes;  // owned
   size_t obstacle_count;
@@ -275,6 +290,7 @@ vsc_active_def vsc_default_active(void);
 vsc_material_def vsc_default_material(void);
 vsc_membrane_def vsc_default_membrane(void);
 vsc_obstacle_def vsc_default_obstacle(void);
+vsc_support_def vsc_default_support(void);
 vsc_definition vsc_default_definition(void);
 
 // Whether the material takes elements of its own: those of its regions or, without any, what no other

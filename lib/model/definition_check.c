@@ -275,6 +275,19 @@ static void check_selectors(checker *c, const char *list, const vsc_selector *se
   }
 }
 
+static void check_motion(checker *c, const vsc_definition *d, const vsc_support_def *support)
+{
+  for (int i = 0; i < 3; i++) {
+    need_finite(c, "motion", support->motion[i], "mm");
+    need(c, support->held[i] || support->motion[i] == 0, "motion", support->motion[i], "mm",
+         "along a direction that is not held: name it in `held`");
+    need(c, support->motion[i] == 0 || d->kept_volume == VSC_KEEP_NONE, "motion",
+         support->motion[i], "mm",
+         "a support cannot move while keep_volume is on: leave one of the two out");
+  }
+  check_curve(c, &support->curve);
+}
+
 static void check_loads(checker *c, const vsc_definition *d)
 {
   for (size_t i = 0; i < d->support_count; i++) {
@@ -283,12 +296,22 @@ static void check_loads(checker *c, const vsc_definition *d)
     need_known(c, "set", d->supports[i].set, d->sets, d->set_count, false);
     need(c, held[0] || held[1] || held[2], "held", 0, "directions",
          "name at least one of x, y, z, or leave the support out");
+    check_motion(c, d, &d->supports[i]);
   }
   for (size_t i = 0; i < d->pressure_count; i++) {
     enter(c, "pressures", i, "");
     need_known(c, "surface", d->pressures[i].surface, d->surfaces, d->surface_count, true);
     need_finite(c, "peak", d->pressures[i].peak, "kPa");
     check_curve(c, &d->pressures[i].curve);
+  }
+  for (size_t i = 0; i < d->robin_count; i++) {
+    const vsc_robin_def *robin = &d->robins[i];
+    enter(c, "robin", i, "");
+    need_known(c, "surface", robin->surface, d->surfaces, d->surface_count, true);
+    need_not_negative(c, "stiffness", robin->stiffness, "kPa/mm");
+    need_not_negative(c, "damping", robin->damping, "kPa ms/mm");
+    need(c, robin->stiffness > 0 || robin->damping > 0, "stiffness", 0, "kPa/mm",
+         "give a stiffness or a damping above zero, or leave it out");
   }
 }
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "model/robin.h"
 
 static void free_order_and_elements(vsc_model *model)
 {
@@ -39,9 +40,18 @@ static void free_lists(vsc_model *model)
   vsc_free(model->pairs);
   for (size_t p = 0; model->pressures && p < model->pressure_count; p++) {
     vsc_free(model->pressures[p].triangles);
+    vsc_free(model->pressures[p].mid);
     vsc_curve_free(&model->pressures[p].curve);
   }
   vsc_free(model->pressures);
+  for (size_t r = 0; model->robins && r < model->robin_count; r++)
+    vsc_robin_free(&model->robins[r]);
+  vsc_free(model->robins);
+  for (size_t s = 0; model->moved && s < model->moved_count; s++) {
+    vsc_free(model->moved[s].nodes);
+    vsc_curve_free(&model->moved[s].curve);
+  }
+  vsc_free(model->moved);
   for (size_t o = 0; model->obstacles && o < model->obstacle_count; o++) {
     vsc_free(model->obstacles[o].nodes);
     vsc_curve_free(&model->obstacles[o].curve);
@@ -86,6 +96,24 @@ int vsc_model_find_surface(const vsc_model *model, const char *name)
 double vsc_model_pressure(const vsc_model *model, size_t p, double time)
 {
   return model->pressures[p].peak * vsc_curve_value(&model->pressures[p].curve, time);
+}
+
+bool vsc_supports_move(const vsc_model *model)
+{
+  return model->moved_count > 0;
+}
+
+void vsc_supports_place(const vsc_model *model, double time, double load, double *x)
+{
+  for (size_t s = 0; s < model->moved_count; s++) {
+    const vsc_moved *moved = &model->moved[s];
+    const double part = load * vsc_curve_value(&moved->curve, time);
+    for (size_t k = 0; k < moved->node_count; k++)
+      for (size_t i = 0; i < 3; i++) {
+        const size_t place = 4 * (size_t)moved->nodes[k] + i;
+        if (moved->motion[i] != 0) x[place] = model->rest[place] + part * moved->motion[i];
+      }
+  }
 }
 
 double vsc_model_activation(const vsc_model *model, const vsc_material *material, size_t slot,

@@ -11,6 +11,7 @@
 #include "base/status.h"
 #include "base/wide.h"
 #include "mesh/axes.h"
+#include "mesh/face.h"
 #include "mesh/mesh.h"
 #include "mesh/select.h"
 #include "model/curve.h"
@@ -152,9 +153,41 @@ typedef struct vsc_pressure {
   char surface[VSC_NAME];
   size_t triangle_count;
   uint32_t *triangles;  // triangle_count x 3 nodes, normal out of the tissue; owned
+  uint32_t *mid;        // triangle_count x 3: nodes in the middle of edges 01, 12, 20; NULL where
+                        // faces have three nodes; owned
+  vsc_face_rule rule;   // of its faces, for fluxes
   double peak;          // kPa
   vsc_curve curve;      // owned
 } vsc_pressure;
+
+// A surface on springs and dashpots: the traction -(stiffness u + damping v) per area at rest, u and v
+// from the place at rest, either all of them or what is along the normal N at rest. Its forces are
+//   f_i = - sum_j W_ij (stiffness u_j + damping v_j),   W_ij = int N_i N_j (1, or N N^T) dA;
+// the blocks of node i's row stand one after the other, columns ascending.
+typedef struct vsc_robin {
+  char surface[VSC_NAME];
+  double stiffness;    // kPa/mm
+  double damping;      // kPa ms/mm
+  bool normal;
+  size_t face_count;
+  double area;         // mm^2
+  size_t node_count;   // rows
+  uint32_t *nodes;     // node_count, ascending: the row's node; owned
+  uint32_t *start;     // node_count + 1: where a row starts; owned
+  uint32_t *columns;   // start[node_count] nodes; owned
+  double *blocks;      // start[node_count] x 12, mm^2: three columns of four, the fourth 0; owned
+} vsc_robin;
+
+// Nodes that a support moves: in direction i they are at rest + motion_i . curve(t).
+typedef struct vsc_moved {
+  char set[VSC_NAME];
+  int held[3];        // directions that the support holds; in others motion is 0
+  double motion[3];   // mm
+  vsc_curve curve;    // owned
+  size_t node_count;
+  uint32_t *nodes;    // owned
+  double mass;        // of the nodes, mg
+} vsc_moved;
 
 // A rigid thing that nodes may not enter; it moves by motion . curve(t).
 typedef struct vsc_obstacle {
@@ -239,6 +272,10 @@ typedef struct vsc_model {
   vsc_pair *pairs;
   size_t pressure_count;
   vsc_pressure *pressures;
+  size_t robin_count;
+  vsc_robin *robins;
+  size_t moved_count;
+  vsc_moved *moved;
   size_t obstacle_count;
   vsc_obstacle *obstacles;
   vsc_kept_volumes kept;
@@ -394,6 +431,14 @@ int vsc_model_find_surface(const vsc_model *model, const char *name);
 
 // Pressure of load `p` at `time`, kPa.
 double vsc_model_pressure(const vsc_model *model, size_t p, double time);
+
+// Whether any support moves.
+bool vsc_supports_move(const vsc_model *model);
+
+// Puts the nodes of moving supports where they are at `time` (ms), in the directions in which they are
+// moved: x (node_count x 4, mm) = rest + load . motion . curve(time). `load`: the part of the motion that
+// is taken, 1 but on the way to a first equilibrium.
+void vsc_supports_place(const vsc_model *model, double time, double load, double *x);
 
 // Kept volume k at positions x (node_count x 4), mm^3.
 double vsc_kept_volume_of(const vsc_model *model, size_t k, const double *x);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "model/robin.h"
 #include "model/terms.h"
 
 vsc_status vsc_terms_selections(const vsc_mesh *mesh, const vsc_definition *definition,
@@ -40,12 +41,67 @@ static const vsc_node_set *find_set(const vsc_model *model, const char *name)
   return NULL;
 }
 
-static void hold(vsc_model *model, const vsc_node_set *set, const int held[3],
-                 const uint32_t *number)
+// What is known of the supports while they are read one after the other.
+typedef struct supporting {
+  const vsc_definition *definition;
+  const uint32_t *number;  // the model's number of the mesh's nodes
+  uint32_t *holder;        // node_count x 3: 1 + the support that holds the direction, 0: none
+} supporting;
+
+static bool is_moved(const vsc_support_def *support)
+{
+  return support->motion[0] != 0 || support->motion[1] != 0 || support->motion[2] != 0;
+}
+
+// A direction may be held by several supports, but not be moved by one of them.
+static vsc_status check_holder(const supporting *all, size_t s, uint32_t node, int i,
+                               const vsc_model *model, vsc_error *error)
+{
+  const size_t other = all->holder[3 * (size_t)node + (size_t)i];
+  const vsc_support_def *supports = all->definition->supports;
+  if (other == 0 || (supports[s].motion[i] == 0 && supports[other - 1].motion[i] == 0))
+    return VSC_OK;
+  const double *at = model->rest + 4 * (size_t)node;
+  return vsc_fail(error, VSC_INPUT,
+                  "supports[%zu].motion: the node at (%.4g, %.4g, %.4g) mm is held in %c by "
+                  "supports[%zu] too, so where it goes is said twice; leave it out of one of the sets",
+                  supports[s].motion[i] != 0 ? s : other - 1, at[0], at[1], at[2], "xyz"[i],
+                  supports[s].motion[i] != 0 ? other - 1 : s);
+}
+
+static vsc_status hold(const supporting *all, size_t s, const vsc_node_set *set, vsc_model *model,
+                       vsc_error *error)
 {
   for (size_t k = 0; k < set->count; k++)
-    for (int i = 0; i < 3; i++)
-      if (held[i]) model->inverse_mass[4 * (size_t)number[set->nodes[k]] + i] = 0;
+    for (int i = 0; i < 3; i++) {
+      const uint32_t node = all->number[set->nodes[k]];
+      if (!all->definition->supports[s].held[i]) continue;
+      const vsc_status status = check_holder(all, s, node, i, model, error);
+      if (status != VSC_OK) return status;
+      all->holder[3 * (size_t)node + (size_t)i] = (uint32_t)(1 + s);
+      model->inverse_mass[4 * (size_t)node + (size_t)i] = 0;
+    }
+  return VSC_OK;
+}
+
+static vsc_status add_moved(const supporting *all, size_t s, const vsc_node_set *set,
+                            vsc_model *model, vsc_error *error)
+{
+  const vsc_support_def *def = &all->definition->supports[s];
+  if (model->moved_count == VSC_MOST_MOVED)
+    return vsc_fail(error, VSC_INPUT, "supports[%zu].motion: %d supports with a motion are the most",
+                    s, VSC_MOST_MOVED);
+  vsc_moved *moved = &model->moved[model->moved_count++];
+  vsc_copy_name(moved->set, def->set);
+  memcpy(moved->held, def->held, sizeof moved->held);
+  memcpy(moved->motion, def->motion, sizeof moved->motion);
+  moved->node_count = set->count;
+  if (!VSC_NEW(moved->nodes, set->count)) return vsc_fail_memory(error, "a support");
+  for (size_t k = 0; k < set->count; k++) {
+    moved->nodes[k] = all->number[set->nodes[k]];
+    moved->mass += model->mass[moved->nodes[k]];
+  }
+  return vsc_curve_build(&def->curve, all->definition->end_time, &moved->curve, error);
 }
 
 static void count_held(vsc_model *model)
@@ -56,25 +112,43 @@ static void count_held(vsc_model *model)
   }
 }
 
+static vsc_status add_support(const supporting *all, size_t s, vsc_model *model, vsc_error *error)
+{
+  const vsc_support_def *support = &all->definition->supports[s];
+  const vsc_node_set *set = find_set(model, support->set);
+  if (set == NULL)
+    return vsc_fail(error, VSC_INPUT,
+                    "supports[%zu].set: no node set is called '%s'; define it under node_sets", s,
+                    support->set);
+  const vsc_status status = hold(all, s, set, model, error);
+  if (status != VSC_OK || !is_moved(support)) return status;
+  return add_moved(all, s, set, model, error);
+}
+
 vsc_status vsc_terms_supports(const vsc_definition *definition, vsc_model *model, vsc_error *error)
 {
   if (definition->support_count == 0) return VSC_OK;
   uint32_t *number = vsc_model_node_numbers(model);
-  if (number == NULL) return vsc_fail_memory(error, "node numbers");
+  supporting all = {.definition = definition, .number = number};
   vsc_status status = VSC_OK;
-  for (size_t s = 0; s < definition->support_count && status == VSC_OK; s++) {
-    const vsc_support_def *support = &definition->supports[s];
-    const vsc_node_set *set = find_set(model, support->set);
-    if (set == NULL)
-      status = vsc_fail(error, VSC_INPUT,
-                        "supports[%zu].set: no node set is called '%s'; define it under node_sets",
-                        s, support->set);
-    else
-      hold(model, set, support->held, number);
-  }
+  if (number == NULL || !VSC_NEW(all.holder, 3 * model->node_count) ||
+      !VSC_NEW(model->moved, VSC_MOST_MOVED))
+    status = vsc_fail_memory(error, "supports");
+  for (size_t s = 0; s < definition->support_count && status == VSC_OK; s++)
+    status = add_support(&all, s, model, error);
   count_held(model);
   vsc_free(number);
+  vsc_free(all.holder);
   return status;
+}
+
+// The model's numbers of `count` nodes of the mesh, owned by the caller; NULL when memory is short.
+static uint32_t *renumbered(const uint32_t *nodes, size_t count, const uint32_t *number)
+{
+  uint32_t *list;
+  if (!VSC_NEW(list, count)) return NULL;
+  for (size_t k = 0; k < count; k++) list[k] = number[nodes[k]];
+  return list;
 }
 
 static vsc_status add_pressure(const vsc_definition *definition, size_t p, const uint32_t *number,
@@ -91,11 +165,38 @@ static vsc_status add_pressure(const vsc_definition *definition, size_t p, const
   vsc_copy_name(load->surface, def->surface);
   load->peak = def->peak;
   load->triangle_count = triangles->count;
-  if (!VSC_NEW(load->triangles, 3 * triangles->count))
+  load->triangles = renumbered(triangles->triangles, 3 * triangles->count, number);
+  if (triangles->mid) load->mid = renumbered(triangles->mid, 3 * triangles->count, number);
+  if (load->triangles == NULL || (triangles->mid != NULL && load->mid == NULL))
     return vsc_fail_memory(error, "a pressure load");
-  for (size_t k = 0; k < 3 * triangles->count; k++)
-    load->triangles[k] = number[triangles->triangles[k]];
+  load->rule = vsc_face_rule_of(triangles->mid ? 6 : 3, VSC_FACE_FLUX);
   return vsc_curve_build(&def->curve, definition->end_time, &load->curve, error);
+}
+
+static vsc_status add_robin(const vsc_robin_def *def, size_t r, const uint32_t *number,
+                            vsc_model *model, vsc_error *error)
+{
+  const int surface = vsc_model_find_surface(model, def->surface);
+  if (surface < 0)
+    return vsc_fail(error, VSC_INPUT,
+                    "robin[%zu].surface: no surface is called '%s'; define it under surfaces", r,
+                    def->surface);
+  const vsc_surface *faces = &model->surfaces[surface];
+  vsc_robin *robin = &model->robins[r];
+  vsc_copy_name(robin->surface, def->surface);
+  robin->stiffness = def->stiffness;
+  robin->damping = def->damping;
+  robin->normal = def->normal;
+  model->terms.damping |= def->damping > 0;
+  uint32_t *triangles = renumbered(faces->triangles, 3 * faces->count, number);
+  uint32_t *mid = faces->mid ? renumbered(faces->mid, 3 * faces->count, number) : NULL;
+  const bool made = triangles != NULL && (faces->mid == NULL || mid != NULL);
+  const vsc_status status =
+      made ? vsc_robin_fill(model->rest, faces->count, triangles, mid, robin, error)
+           : vsc_fail_memory(error, "springs on a surface");
+  vsc_free(triangles);
+  vsc_free(mid);
+  return status;
 }
 
 static vsc_status add_weight(const vsc_definition *definition, vsc_model *model, vsc_error *error)
@@ -113,14 +214,17 @@ static vsc_status add_weight(const vsc_definition *definition, vsc_model *model,
 vsc_status vsc_terms_loads(const vsc_definition *definition, vsc_model *model, vsc_error *error)
 {
   vsc_status status = add_weight(definition, model, error);
-  if (status != VSC_OK || definition->pressure_count == 0) return status;
   model->pressure_count = definition->pressure_count;
-  if (!VSC_NEW(model->pressures, model->pressure_count))
-    return vsc_fail_memory(error, "pressure loads");
+  model->robin_count = definition->robin_count;
+  if (!VSC_NEW(model->pressures, model->pressure_count) ||
+      !VSC_NEW(model->robins, model->robin_count))
+    return vsc_fail_memory(error, "loads");
   uint32_t *number = vsc_model_node_numbers(model);
   if (number == NULL) return vsc_fail_memory(error, "node numbers");
   for (size_t p = 0; p < definition->pressure_count && status == VSC_OK; p++)
     status = add_pressure(definition, p, number, model, error);
+  for (size_t r = 0; r < definition->robin_count && status == VSC_OK; r++)
+    status = add_robin(&definition->robins[r], r, number, model, error);
   vsc_free(number);
   return status;
 }

@@ -29,7 +29,8 @@ vsc_status vsc_terms_volume_groups(vsc_model *model, vsc_error *error);
 vsc_status vsc_terms_selections(const vsc_mesh *mesh, const vsc_definition *definition,
                                 vsc_model *model, vsc_error *error);
 
-// Held directions: inverse mass 0.
+// Held directions: inverse mass 0; supports that move. VSC_INPUT for a direction of a node that is moved
+// by one support and held by another, and for more than VSC_MOST_MOVED of them.
 vsc_status vsc_terms_supports(const vsc_definition *definition, vsc_model *model, vsc_error *error);
 
 // Volumes to be kept (kept_volume.c), after supports: those that cannot change are left out. VSC_INPUT
@@ -41,7 +42,7 @@ vsc_status vsc_terms_kept_volumes(const vsc_mesh *mesh, const vsc_definition *de
 vsc_status vsc_terms_obstacles(const vsc_mesh *mesh, const vsc_definition *definition,
                                vsc_model *model, vsc_error *error);
 
-// Pressures and weights.
+// Pressures, weights, springs and dashpots on surfaces.
 vsc_status vsc_terms_loads(const vsc_definition *definition, vsc_model *model, vsc_error *error);
 
 #endif

@@ -84,9 +84,13 @@ static void say_supports(const vsc_problem *problem, FILE *out)
     for (size_t k = 0; k < problem->model->set_count; k++)
       if (strcmp(problem->model->sets[k].name, support->set) == 0)
         nodes = problem->model->sets[k].count;
-    fprintf(out, " %s (%zu nodes) held in%s%s%s;", support->set, nodes,
+    fprintf(out, " %s (%zu nodes) held in%s%s%s", support->set, nodes,
             support->held[0] ? " x" : "", support->held[1] ? " y" : "",
             support->held[2] ? " z" : "");
+    const double *motion = support->motion;
+    if (motion[0] != 0 || motion[1] != 0 || motion[2] != 0)
+      fprintf(out, ", moved by (%g, %g, %g) mm", motion[0], motion[1], motion[2]);
+    fputc(';', out);
   }
   fprintf(out, " %zu of %zu nodes in all\n", problem->model->held_count,
           problem->model->node_count);
@@ -181,6 +185,14 @@ static void say_membranes(const vsc_model *model, FILE *out)
   }
 }
 
+static bool tissue_is_damped(const vsc_model *model)
+{
+  bool damped = false;
+  for (size_t m = 0; m < model->material_count; m++) damped |= model->materials[m].damped;
+  for (size_t m = 0; m < model->membrane_count; m++) damped |= model->membranes[m].lag > 0;
+  return damped;
+}
+
 static void say_terms(const vsc_model *model, FILE *out)
 {
   const char *volumes = "";
@@ -188,7 +200,7 @@ static void say_terms(const vsc_model *model, FILE *out)
     if (model->materials[m].element_count > 0 && model->materials[m].law != VSC_LAW_CLASSICAL)
       volumes = model->terms.nodal_volume ? "; volume of node groups and of each element"
                                           : "; volume of each element";
-  fprintf(out, "terms      springs%s%s%s%s%s", model->terms.damping ? ", axial damping" : "",
+  fprintf(out, "terms      springs%s%s%s%s%s", tissue_is_damped(model) ? ", axial damping" : "",
           volumes,
           model->terms.active == VSC_ACTIVE_SPRING ? "; active springs" : "",
           model->terms.active == VSC_ACTIVE_TENSION ? "; active tension" : "",
@@ -198,6 +210,15 @@ static void say_terms(const vsc_model *model, FILE *out)
             model->pressures[p].peak * vsc_curve_peak(&model->pressures[p].curve),
             model->pressures[p].triangle_count);
   fputc('\n', out);
+  for (size_t r = 0; r < model->robin_count; r++) {
+    const vsc_robin *bed = &model->robins[r];
+    fprintf(out,
+            "robin      %s: %zu triangles, %.4g cm2, %s; stiffness %g kPa/mm, in all %.4g mN/mm; "
+            "damping %g kPa ms/mm, in all %.4g mN ms/mm\n",
+            bed->surface, bed->face_count, 1e-2 * bed->area,
+            bed->normal ? "along the normal" : "in all directions", bed->stiffness,
+            bed->stiffness * bed->area, bed->damping, bed->damping * bed->area);
+  }
   static const char *const kept[] = {"", "the whole body", "each material", "each node", "each element"};
   if (model->kept.count > 0)
     fprintf(out, "kept       volume of %s, %zu in all, by multipliers\n", kept[model->kept.kind],

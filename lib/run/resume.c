@@ -6,7 +6,7 @@
 #include "run/job.h"
 
 // Scalars of a checkpoint, in the order of list_scalars.
-enum { CLOCK = 0, LIMIT = 2, WORKS = 8, WATCH = 13, SCALARS = 17, BLOCKS = 16 };
+enum { CLOCK = 0, LIMIT = 2, WORKS = 8, WATCH = 13, SCALARS = 17, BLOCKS = 17 };
 
 static void list_scalars(vsc_job *job, double *places[SCALARS])
 {
@@ -71,6 +71,8 @@ static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[
       {"former_position", "mm", former_nodes(job), 4, state->former_x},
       {"former_velocity", "mm/ms", former_nodes(job), 4, state->former_v},
       {"former_step", "ms", former_nodes(job) > 0, 1, &state->former_step},
+      {"moved_supports", "1, 1/ms, mN, uJ, mN ms, mN ms, ms", job->problem->model->moved_count,
+       sizeof *state->moved / sizeof(double), (double *)state->moved},
       {"time_and_steps", "ms, 1", LIMIT - CLOCK, 1, scalars + CLOCK},
       {"step_limit", "1/ms^2, ms, ms, ms, 1, ms", WORKS - LIMIT, 1, scalars + LIMIT},
       {"works", "uJ, uJ, uJ, uJ, 1", WATCH - WORKS, 1, scalars + WORKS},
@@ -115,28 +117,33 @@ static void list_arrays(vsc_job *job, double *arrays[4])
   memcpy(arrays, list, sizeof list);
 }
 
-// Numbers of all contact sums, and of what nodes remember of contact.
-static size_t contact_size(const vsc_job *job)
+// Numbers of the sums of obstacles and of moving supports, and of what nodes remember of contact.
+static size_t sums_size(const vsc_job *job)
 {
-  const size_t numbers = sizeof *job->state->contact / sizeof(double);
-  return job->problem->model->obstacle_count * numbers + 12 * contact_nodes(job);
+  const vsc_model *model = job->problem->model;
+  return (model->obstacle_count * sizeof *job->state->contact +
+          model->moved_count * sizeof *job->state->moved) / sizeof(double) +
+         12 * contact_nodes(job);
 }
 
-// Copies what belongs to contact to `memory`, or back from it.
-static void copy_contact(vsc_job *job, double *memory, bool back)
+// Copies these to `memory`, or back from it.
+static void copy_sums(vsc_job *job, double *memory, bool back)
 {
   vsc_state *state = job->state;
+  const vsc_model *model = job->problem->model;
   const size_t nodes = 4 * contact_nodes(job);
-  double *const arrays[4] = {state->former, state->pending, state->contact_normal,
-                             (double *)state->contact};
-  const size_t counts[4] = {nodes, nodes, nodes, contact_size(job) - 3 * nodes};
-  for (int k = 0; k < 4; memory += counts[k++])
+  double *const arrays[5] = {state->former, state->pending, state->contact_normal,
+                             (double *)state->contact, (double *)state->moved};
+  const size_t counts[5] = {nodes, nodes, nodes,
+                            model->obstacle_count * sizeof *state->contact / sizeof(double),
+                            model->moved_count * sizeof *state->moved / sizeof(double)};
+  for (int k = 0; k < 5; memory += counts[k++])
     memcpy(back ? arrays[k] : memory, back ? memory : arrays[k], counts[k] * sizeof *memory);
 }
 
 vsc_status vsc_job_make_good(vsc_job *job, vsc_error *error)
 {
-  if (VSC_NEW(job->good, SCALARS + 16 * job->problem->model->node_count + contact_size(job)))
+  if (VSC_NEW(job->good, SCALARS + 16 * job->problem->model->node_count + sums_size(job)))
     return VSC_OK;
   return vsc_fail_memory(error, "the last good state");
 }
@@ -149,7 +156,7 @@ void vsc_job_keep_good(vsc_job *job)
   take_scalars(job, job->good);
   for (size_t k = 0; k < 4; k++)
     memcpy(job->good + SCALARS + k * count, arrays[k], count * sizeof(double));
-  copy_contact(job, job->good + SCALARS + 4 * count, false);
+  copy_sums(job, job->good + SCALARS + 4 * count, false);
 }
 
 void vsc_job_go_back(vsc_job *job)
@@ -162,5 +169,5 @@ void vsc_job_go_back(vsc_job *job)
   job->watch->rows = rows;  // what is written stays written
   for (size_t k = 0; k < 4; k++)
     memcpy(arrays[k], job->good + SCALARS + k * count, count * sizeof(double));
-  copy_contact(job, job->good + SCALARS + 4 * count, true);
+  copy_sums(job, job->good + SCALARS + 4 * count, true);
 }

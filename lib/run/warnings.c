@@ -147,9 +147,9 @@ static void warn_setting(writer *w, const vsc_problem *problem)
     warn(w, "mesh: its box is %.3g x %.3g x %.3g mm: is mesh.unit right?", size[0], size[1],
          size[2]);
   const bool driven = model->pressure_count > 0 || model->terms.gravity;
-  if (model->held_count == 0 && model->obstacle_count == 0 && driven)
+  if (model->held_count == 0 && model->obstacle_count == 0 && model->robin_count == 0 && driven)
     warn(w, "supports: nothing is held, so the load will carry the body away");
-  bool pushed = false;
+  bool pushed = vsc_supports_move(model);
   for (size_t o = 0; o < model->obstacle_count; o++)
     pushed |= vsc_norm(model->obstacles[o].motion) > 0;
   if (model->terms.active == VSC_ACTIVE_NONE && !driven && !pushed)

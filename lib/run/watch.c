@@ -33,6 +33,7 @@ static void put_energies(const vsc_model *model, vsc_watch *watch)
     put(watch, "mJ", MJ * t->membrane, "energy_membrane", "");
     put(watch, "mJ", MJ * t->bending, "energy_bending", "");
   }
+  if (model->robin_count > 0) put(watch, "mJ", MJ * t->springs, "energy_springs", "");
   put(watch, "mJ", MJ * t->gravity_energy, "energy_gravity", "");
   put(watch, "mJ", MJ * ledger->active, "work_active", "");
   put(watch, "mJ", MJ * ledger->pressure, "work_pressure", "");
@@ -55,6 +56,25 @@ static void put_contact(const vsc_model *model, const vsc_state *state, vsc_watc
   if (model->obstacle_count == 0) return;
   put(watch, "mJ", MJ * watch->totals.contact_work, "work_obstacles", "");
   put(watch, "mJ", MJ * watch->totals.contact_lost, "lost_contact", "");
+}
+
+// The mean force of each moving support on its nodes since the last row, mN, in the directions that it
+// holds, and the work of all.
+static void put_moved(const vsc_model *model, const vsc_state *state, vsc_watch *watch)
+{
+  static const char *const axis[3] = {"_x", "_y", "_z"};
+  for (size_t s = 0; s < model->moved_count; s++) {
+    const vsc_moved_sums *sums = &state->moved[s];
+    const double passed = state->time - sums->row_time;
+    char name[VSC_NAME + 16];
+    snprintf(name, sizeof name, "support_%s", model->moved[s].set);
+    for (int i = 0; i < 3; i++)
+      if (model->moved[s].held[i])
+        put(watch, "mN", passed > 0 ? (sums->impulse[i] - sums->row_impulse[i]) / passed : 0, name,
+            axis[i]);
+  }
+  if (model->moved_count > 0)
+    put(watch, "mJ", MJ * watch->totals.support_work, "work_supports", "");
 }
 
 enum { MOST_KEPT_NAMED = 16 };
@@ -105,6 +125,7 @@ static void make_row(const vsc_problem *problem, vsc_state *state, vsc_watch *wa
   put(watch, "1", t->inverted, "inverted_elements", "");
   put_energies(model, watch);
   put_contact(model, state, watch);
+  put_moved(model, state, watch);
   put_kept(model, state, watch);
   for (int i = 0; i < 3; i++) put(watch, "mg m/s", t->momentum[i], "momentum_", axis[i]);
   for (int i = 0; i < 3; i++)
@@ -213,8 +234,9 @@ static vsc_status check_balance(const vsc_model *model, const vsc_state *state, 
   const vsc_ledger *ledger = watch->ledger;
   const double error_now = vsc_balance_error(ledger, t), jump = fabs(error_now - watch->balance);
   const double sizes[] = {
-      t->kinetic + t->axial + t->angular + t->volume_energy + t->membrane + t->bending,
-      fabs(ledger->active), fabs(ledger->pressure), fabs(t->contact_work)};
+      t->kinetic + t->axial + t->angular + t->volume_energy + t->membrane + t->bending + t->springs,
+      fabs(ledger->active), fabs(ledger->pressure), fabs(t->contact_work),
+      fabs(t->support_work)};
   watch->balance = error_now;
   for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++)
     watch->energy_scale = fmax(watch->energy_scale, sizes[k]);
@@ -257,6 +279,11 @@ vsc_status vsc_watch_row(const vsc_problem *problem, vsc_state *state, vsc_watch
   make_row(problem, state, watch);
   for (size_t o = 0; o < problem->model->obstacle_count; o++) {
     vsc_contact_sums *sums = &state->contact[o];
+    memcpy(sums->row_impulse, sums->impulse, sizeof sums->impulse);
+    sums->row_time = state->time;
+  }
+  for (size_t s = 0; s < problem->model->moved_count; s++) {
+    vsc_moved_sums *sums = &state->moved[s];
     memcpy(sums->row_impulse, sums->impulse, sizeof sums->impulse);
     sums->row_time = state->time;
   }

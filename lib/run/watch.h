@@ -10,9 +10,10 @@
 #include "run/problem.h"
 
 // Columns of signals.csv: room for 55 that every scene may have, one for each cavity and pressure,
-// three for each obstacle.
+// three for each obstacle and each support that moves.
 enum {
-  VSC_SIGNALS = 55 + VSC_OUTPUT_ARRAYS + VSC_MOST_PRESSURES + 3 * VSC_MOST_OBSTACLES,
+  VSC_SIGNALS = 55 + VSC_OUTPUT_ARRAYS + VSC_MOST_PRESSURES + 3 * VSC_MOST_OBSTACLES +
+                3 * VSC_MOST_MOVED,
   VSC_SIGNAL_NAME = 96
 };
 

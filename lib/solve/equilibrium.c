@@ -46,14 +46,18 @@ vsc_status vsc_equilibrium_start(const vsc_model *model, vsc_state *state, vsc_e
   return VSC_OK;
 }
 
-// Where the last increment's velocity leads in dt, unless that turns an element inside out.
-static void guess(const vsc_model *model, vsc_state *state, double dt, double *x)
+// Where the last increment's velocity leads in dt, unless that turns an element inside out; supports that
+// move are where they have to be. False when they turn one inside out.
+static bool guess(const vsc_model *model, vsc_state *state, double dt, double time, double *x)
 {
   uint32_t element;
   for (size_t i = 0; i < 4 * model->node_count; i++)
     x[i] = state->x[i] + (model->inverse_mass[i] != 0 ? dt * state->v[i] : 0);
-  if (vsc_smallest_ratio(model, x, &element) <= 0)
-    memcpy(x, state->x, 4 * model->node_count * sizeof *x);
+  vsc_supports_place(model, time, state->scratch.load, x);
+  if (vsc_smallest_ratio(model, x, &element) > 0) return true;
+  memcpy(x, state->x, 4 * model->node_count * sizeof *x);
+  vsc_supports_place(model, time, state->scratch.load, x);
+  return !vsc_supports_move(model) || vsc_smallest_ratio(model, x, &element) > 0;
 }
 
 vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double until,
@@ -69,10 +73,14 @@ vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double u
     statics s = {model, state, start + next * way};
     const vsc_balance balance = {&s, residual, assemble};
     state->scratch.load = load0 + next * (1 - load0);
-    guess(model, state, (next - done) * way, x);
     int iterations;
-    const vsc_status status = vsc_newton_solve(newton, &balance, s.time, state->scratch.load, x,
-                                               &iterations, error);
+    vsc_status status =
+        guess(model, state, (next - done) * way, s.time, x)
+            ? vsc_newton_solve(newton, &balance, s.time, state->scratch.load, x, &iterations, error)
+            : vsc_fail(error, VSC_NUMERICAL,
+                       "at %.6g ms no equilibrium was found: a support moves so far that elements turn "
+                       "inside out",
+                       s.time);
     if (status == VSC_OK) {
       const double dt = (next - done) * way;
       for (size_t i = 0; i < 4 * model->node_count; i++) {

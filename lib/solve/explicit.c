@@ -9,6 +9,7 @@
 #include "mech/step_limit.h"
 #include "solve/contact.h"
 #include "solve/keep_volume.h"
+#include "solve/moving.h"
 
 // The step is re-estimated at intervals between these, ms: twice as late while the eigenvalue stays
 // within 2 %, twice as soon when it moved by more than 10 %.
@@ -107,10 +108,12 @@ vsc_status vsc_steps(const vsc_model *model, vsc_state *state, double dt, double
   for (double k = 1; k <= count; k++) {
     state->time += dt;
     state->steps++;
+    if (model->moved_count > 0) vsc_moving_place(model, state, dt);
     const vsc_status status = restrain(model, state, dt, k == 1, error);
     if (status != VSC_OK) return status;
     if (model->obstacle_count > 0) vsc_contact_account(model, state);
     vsc_force(model, state->x, velocity, state->time, &state->scratch, state->force);
+    if (model->moved_count > 0) vsc_moving_account(model, state, dt, k == count);
     vsc_parallel_for(pieces, k < count ? kick_and_drift : kick, &m);
   }
   if (model->obstacle_count > 0) vsc_contact_settle(model, state, dt);
@@ -134,6 +137,7 @@ static double busiest_time(const vsc_model *model)
 
 vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
 {
+  vsc_supports_place(model, state->time, 1, state->x);
   vsc_limit_refresh(model, state, busiest_time(model), FIRST_ITERATIONS);
   const double active_step = state->limit.step;
   vsc_limit_refresh(model, state, state->time, FIRST_ITERATIONS);
@@ -155,6 +159,7 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
             state->force);
   motion m = {model, state, 0};
   for (size_t piece = 0; piece * NODES_PER_PIECE < model->node_count; piece++) kick(&m, piece, 0);
+  if (model->moved_count > 0) vsc_moving_start(model, state);
   return VSC_OK;
 }
 

@@ -167,6 +167,7 @@ static void predict(const vsc_model *model, const vsc_state *state, double dt, d
            (model->inverse_mass[i] != 0 ? dt * (state->v[i] + 0.5 * dt * state->a[i]) : 0);
   if (vsc_smallest_ratio(model, x, &element) <= 0)
     memcpy(x, state->x, 4 * model->node_count * sizeof *x);
+  vsc_supports_place(model, state->time + dt, 1, x);
 }
 
 // c dt^2 rms |a_1 - a_0|, mm.
@@ -187,13 +188,13 @@ static void accept(const step *p, double dt)
   vsc_state *state = p->state;
   const bool remembers = p->model->solve.scheme == VSC_SCHEME_BDF2;
   for (size_t i = 0; i < 4 * p->model->node_count; i++) {
-    const bool held = p->model->inverse_mass[i] == 0;
+    const bool rests = p->model->inverse_mass[i] == 0 && p->s->next[i] == state->x[i] && state->v[i] == 0;
     if (remembers) {
       state->former_x[i] = state->x[i];
       state->former_v[i] = state->v[i];
     }
-    state->v[i] = held ? 0 : p->scheme.V * p->s->next[i] + p->s->h_v[i];
-    state->a[i] = held ? 0 : p->scheme.A * p->s->next[i] + p->s->h_a[i];
+    state->v[i] = rests ? 0 : p->scheme.V * p->s->next[i] + p->s->h_v[i];
+    state->a[i] = rests ? 0 : p->scheme.A * p->s->next[i] + p->s->h_a[i];
     state->x[i] = p->s->next[i];
   }
   if (remembers) state->former_step = dt;

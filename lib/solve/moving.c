@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/moving.h"
+
+// dc/dt at `time` from values dt apart; of second order, and without looking behind the table of a curve
+// that ends with the run.
+static double rate_of(const vsc_model *model, const vsc_curve *curve, double time, double dt)
+{
+  const double before = vsc_curve_value(curve, time - dt);
+  if (curve->period > 0 || time + dt <= model->end_time)
+    return (vsc_curve_value(curve, time + dt) - before) / (2 * dt);
+  return (3 * vsc_curve_value(curve, time) - 4 * before + vsc_curve_value(curve, time - 2 * dt)) /
+         (2 * dt);
+}
+
+static void give_rate(const vsc_moved *moved, double rate, double *v)
+{
+  for (size_t k = 0; k < moved->node_count; k++)
+    for (size_t i = 0; i < 3; i++)
+      if (moved->motion[i] != 0) v[4 * (size_t)moved->nodes[k] + i] = rate * moved->motion[i];
+}
+
+static void add_forces(const vsc_moved *moved, const double *force, double sum[3])
+{
+  for (int i = 0; i < 3; i++) sum[i] = 0;
+  for (size_t k = 0; k < moved->node_count; k++)
+    for (size_t i = 0; i < 3; i++) sum[i] += force[4 * (size_t)moved->nodes[k] + i];
+}
+
+void vsc_moving_start(const vsc_model *model, vsc_state *state)
+{
+  for (size_t s = 0; s < model->moved_count; s++) {
+    vsc_moved_sums *sums = &state->moved[s];
+    *sums = (vsc_moved_sums){.part = vsc_curve_value(&model->moved[s].curve, state->time),
+                             .row_time = state->time};
+    add_forces(&model->moved[s], state->force, sums->force);
+  }
+}
+
+void vsc_moving_place(const vsc_model *model, vsc_state *state, double dt)
+{
+  vsc_supports_place(model, state->time, 1, state->x);
+  for (size_t s = 0; s < model->moved_count; s++) {
+    const vsc_moved *moved = &model->moved[s];
+    const double part = vsc_curve_value(&moved->curve, state->time);
+    give_rate(moved, (part - state->moved[s].part) / dt, state->v);
+    if (model->terms.damping)
+      give_rate(moved, rate_of(model, &moved->curve, state->time, dt), state->scratch.predicted);
+  }
+}
+
+void vsc_moving_account(const vsc_model *model, vsc_state *state, double dt, bool last)
+{
+  for (size_t s = 0; s < model->moved_count; s++) {
+    const vsc_moved *moved = &model->moved[s];
+    vsc_moved_sums *sums = &state->moved[s];
+    const double part = vsc_curve_value(&moved->curve, state->time);
+    const double rate = rate_of(model, &moved->curve, state->time, dt);
+    double force[3];
+    add_forces(moved, state->force, force);
+    for (int i = 0; i < 3; i++) {
+      const double motion = moved->motion[i], mean = 0.5 * (force[i] + sums->force[i]);
+      // of the kinetic energy's and the momentum's change, what the other forces have not done
+      sums->work += 0.5 * moved->mass * motion * motion * (rate * rate - sums->rate * sums->rate) -
+                    mean * motion * (part - sums->part);
+      if (moved->held[i])
+        sums->impulse[i] += moved->mass * motion * (rate - sums->rate) - mean * dt;
+      sums->force[i] = force[i];
+    }
+    sums->part = part;
+    sums->rate = rate;
+    if (last) give_rate(moved, rate, state->v);
+  }
+}

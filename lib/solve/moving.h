@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Supports that move: their nodes go where they are told, and what that takes goes to the state's sums.
+#ifndef VSC_SOLVE_MOVING_H
+#define VSC_SOLVE_MOVING_H
+
+#include "mech/state.h"
+
+// To be called once the forces at the start are known and the nodes are in place: begins the sums, with
+// nodes at rest.
+void vsc_moving_start(const vsc_model *model, vsc_state *state);
+
+// To be called when the positions have drifted to state->time in a step of dt (ms): puts the nodes to
+// rest + motion . c(t) and gives them the velocity of the middle of the step that takes them there,
+//   v = motion . (c(t) - c(t - dt)) / dt,
+// and, where velocities are predicted, the one of its end, motion . (c(t + dt) - c(t - dt)) / (2 dt).
+void vsc_moving_place(const vsc_model *model, vsc_state *state, double dt);
+
+// To be called when the forces f at the end of that step are known: adds the support's work and impulse,
+//   m motion^2 (r^2 - r_0^2)/2 - (f + f_0)/2 . motion (c - c_0),   m motion (r - r_0) - dt (f + f_0)/2,
+// with the rates r of c that the velocities have at both ends: what Stoermer-Verlet's own balance of the
+// nodes leaves for the support. `last` of a row of steps: velocities become those of its end.
+void vsc_moving_account(const vsc_model *model, vsc_state *state, double dt, bool last);
+
+#endif
