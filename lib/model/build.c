@@ -143,8 +143,9 @@ static bool needs_general(const vsc_material *material)
 {
   const bool plain_tension = material->length_factor == 0 && material->tension_parts[0] == 0 &&
                              material->tension_parts[1] == 0;
-  return material->law != VSC_LAW_SPRINGS || has_coupling(material) || material->viscosity > 0 ||
-         (material->active == VSC_ACTIVE_TENSION && !plain_tension);
+  return vsc_law_is_of_strain(material->law) &&
+         (material->law != VSC_LAW_SPRINGS || has_coupling(material) || material->viscosity > 0 ||
+          (material->active == VSC_ACTIVE_TENSION && !plain_tension));
 }
 
 static vsc_status copy_material(const vsc_material_def *def, const vsc_definition *definition,
