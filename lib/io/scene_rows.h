@@ -42,6 +42,9 @@ extern const vsc_group vsc_membrane_group;  // an item of membranes; vsc_membran
 extern const vsc_group vsc_obstacle_group;  // an item of obstacles; vsc_obstacle_def
 extern const vsc_group vsc_law_paper_group;      // vsc_material_def
 extern const vsc_group vsc_law_classical_group;  // vsc_material_def
+extern const vsc_group vsc_law_neo_hookean_group, vsc_law_guccione_group, vsc_law_fung_group;
+extern const vsc_group vsc_law_holzapfel_ogden_group, vsc_law_mooney_rivlin_group;
+extern const vsc_group vsc_law_veronda_westmann_group;  // all vsc_material_def
 extern const vsc_group vsc_axis_group;       // an item of a material's axes; vsc_axis_def
 extern const vsc_group vsc_pair_group;       // an item of a material's pairs; vsc_pair_def
 extern const vsc_group vsc_inclusion_group;  // an item of a material's inclusions; vsc_inclusion_def

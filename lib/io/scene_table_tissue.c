@@ -73,6 +73,13 @@ static const vsc_row active_rows[] = {
      .meaning = "none, spring (the fibre stiffens and shortens), tension"},
     {"tension", QUANTITY(vsc_active_def, tension, VSC_PRESSURE), .allowed = OF_TENSION,
      .needed = BIT(VSC_ACTIVE_TENSION), .text = "60 kPa", .meaning = "along the fibre at the peak"},
+    {"length_factor", NUMBER(vsc_active_def, length_factor), .allowed = OF_TENSION,
+     .commented = true, .text = "1.45",
+     .meaning = "tension grows by it times (fibre stretch - 1); default 0"},
+    {"sheet_fraction", NUMBER(vsc_active_def, sheet_fraction), .allowed = OF_TENSION,
+     .commented = true, .text = "0.2", .meaning = "part of the tension along the sheet; default 0"},
+    {"normal_fraction", NUMBER(vsc_active_def, normal_fraction), .allowed = OF_TENSION,
+     .commented = true, .text = "0.1", .meaning = "part of the tension along the normal; default 0"},
     {"stiffness", QUANTITY(vsc_active_def, stiffness, VSC_PRESSURE), .allowed = OF_SPRING,
      .commented = true, .text = "200 kPa",
      .meaning = "spring: fibre modulus at the peak (law: paper has its own)"},
@@ -110,6 +117,16 @@ static const vsc_row angular_rows[] = {
 };
 GROUP(static, angular, -1);
 
+static const vsc_row coupling_rows[] = {
+    {"fs", QUANTITY(vsc_material_def, coupling[0], VSC_PRESSURE), .text = "1 kPa",
+     .meaning = "of fibre and sheet; default 0 kPa"},
+    {"sn", QUANTITY(vsc_material_def, coupling[1], VSC_PRESSURE), .text = "1 kPa",
+     .meaning = "of sheet and normal"},
+    {"nf", QUANTITY(vsc_material_def, coupling[2], VSC_PRESSURE), .text = "1 kPa",
+     .meaning = "of normal and fibre"},
+};
+GROUP(static, coupling, -1);
+
 static const vsc_row damping_rows[] = {
     {"f", QUANTITY(vsc_material_def, damping[0], VSC_VISCOSITY), .text = "10 Pa s",
      .meaning = "along the fibre; default 0 Pa s"},
@@ -123,12 +140,32 @@ GROUP(static, damping, -1);
 static const vsc_word laws[] = {{"springs", VSC_LAW_SPRINGS},
                                 {"paper", VSC_LAW_PAPER},
                                 {"classical", VSC_LAW_CLASSICAL},
+                                {"neo_hookean", VSC_LAW_NEO_HOOKEAN},
+                                {"guccione", VSC_LAW_GUCCIONE},
+                                {"fung", VSC_LAW_FUNG},
+                                {"usyk", VSC_LAW_FUNG},
+                                {"holzapfel_ogden", VSC_LAW_HOLZAPFEL_OGDEN},
+                                {"mooney_rivlin", VSC_LAW_MOONEY_RIVLIN},
+                                {"veronda_westmann", VSC_LAW_VERONDA_WESTMANN},
                                 {NULL, 0}};
 enum {
   OF_SPRINGS = BIT(VSC_LAW_SPRINGS),
   OF_PAPER = BIT(VSC_LAW_PAPER),
   OF_CLASSICAL = BIT(VSC_LAW_CLASSICAL),
+  OF_NEO_HOOKEAN = BIT(VSC_LAW_NEO_HOOKEAN),
+  OF_GUCCIONE = BIT(VSC_LAW_GUCCIONE),
+  OF_FUNG = BIT(VSC_LAW_FUNG),
+  OF_HOLZAPFEL_OGDEN = BIT(VSC_LAW_HOLZAPFEL_OGDEN),
+  OF_MOONEY_RIVLIN = BIT(VSC_LAW_MOONEY_RIVLIN),
+  OF_VERONDA_WESTMANN = BIT(VSC_LAW_VERONDA_WESTMANN),
+  OF_TISSUES = OF_NEO_HOOKEAN | OF_GUCCIONE | OF_FUNG | OF_HOLZAPFEL_OGDEN | OF_MOONEY_RIVLIN |
+               OF_VERONDA_WESTMANN,
+  OF_STRAIN = OF_SPRINGS | OF_TISSUES,
 };
+
+// The constants of a tissue law under its own name.
+#define CONSTANTS(name, of, what) \
+  {#name, PART(0, vsc_law_##name##_group), .allowed = of, .needed = of, .commented = true, .meaning = what}
 
 static const vsc_row vsc_material_group_rows[] = {
     {"name", NAME(vsc_material_def, name), .needed = VSC_ALWAYS, .text = "myocardium",
@@ -139,17 +176,23 @@ static const vsc_row vsc_material_group_rows[] = {
     {"density", QUANTITY(vsc_material_def, density, VSC_DENSITY), .text = "1.06 g/cm3",
      .meaning = "at rest"},
     {"law", CHOICE(vsc_material_def, law, laws), .text = "springs",
-     .meaning = "springs; or, to compare: paper (the printed formulas), classical (springs on edges)"},
+     .meaning = "springs, neo_hookean, guccione, fung (usyk), holzapfel_ogden, mooney_rivlin, "
+                "veronda_westmann; to compare: paper (the printed formulas), classical (springs on "
+                "edges)"},
     {"axial", PART(0, axial), .allowed = OF_SPRINGS, .needed = OF_SPRINGS,
      .meaning = "springs along the frame's axes"},
     {"angular", PART(0, angular), .allowed = OF_SPRINGS, .needed = OF_SPRINGS,
      .meaning = "springs between the axes"},
+    {"coupling", PART(0, coupling), .allowed = OF_SPRINGS, .commented = true,
+     .meaning = "between the stretches of two axes"},
     {"damping", PART(0, damping), .allowed = OF_SPRINGS, .meaning = "axial viscosity"},
+    {"viscosity", QUANTITY(vsc_material_def, viscosity, VSC_VISCOSITY), .allowed = OF_STRAIN,
+     .commented = true, .text = "100 Pa s", .meaning = "Kelvin-Voigt, of all strain; default 0 Pa s"},
     {"volume_modulus", QUANTITY(vsc_material_def, volume_modulus, VSC_PRESSURE),
-     .allowed = OF_SPRINGS, .needed = OF_SPRINGS, .text = "1 MPa",
+     .allowed = OF_STRAIN, .needed = OF_STRAIN, .text = "1 MPa",
      .meaning = "against a change of volume"},
     {"stabilization", QUANTITY(vsc_material_def, stabilization, VSC_PRESSURE),
-     .allowed = OF_SPRINGS, .text = "10 kPa",
+     .allowed = OF_STRAIN, .text = "10 kPa",
      .meaning = "the same of each frame, beside a shared volume; default 0 kPa"},
     {"axes", PARTS(vsc_material_def, axes, axis_count, vsc_axis_group), .allowed = OF_SPRINGS,
      .commented = true, .meaning = "more axes than f, s, n"},
@@ -157,6 +200,15 @@ static const vsc_row vsc_material_group_rows[] = {
      .commented = true, .meaning = "more angular springs"},
     {"inclusions", PARTS(vsc_material_def, inclusions, inclusion_count, vsc_inclusion_group),
      .allowed = OF_SPRINGS, .commented = true, .meaning = "materials that take a part of each element"},
+    {"isochoric", .kind = VSC_ROW_BOOL, AT(vsc_material_def, isochoric), .allowed = OF_TISSUES,
+     .commented = true, .text = "false",
+     .meaning = "true: the law without volume change (holzapfel_ogden: its ground alone)"},
+    CONSTANTS(neo_hookean, OF_NEO_HOOKEAN, "law: neo_hookean: rubber"),
+    CONSTANTS(guccione, OF_GUCCIONE, "law: guccione: myocardium, transversely isotropic"),
+    CONSTANTS(fung, OF_FUNG, "law: fung or usyk: orthotropic exponential"),
+    CONSTANTS(holzapfel_ogden, OF_HOLZAPFEL_OGDEN, "law: holzapfel_ogden: myocardium"),
+    CONSTANTS(mooney_rivlin, OF_MOONEY_RIVLIN, "law: mooney_rivlin: rubber"),
+    CONSTANTS(veronda_westmann, OF_VERONDA_WESTMANN, "law: veronda_westmann: soft organs"),
     {"paper", PART(0, vsc_law_paper_group), .allowed = OF_PAPER, .needed = OF_PAPER,
      .commented = true, .meaning = "law: paper: constants of every element, whatever its size"},
     {"classical", PART(0, vsc_law_classical_group), .allowed = OF_CLASSICAL,
@@ -173,7 +225,7 @@ static void start_material(void *target)
 static vsc_status finish_material(vsc_reading *reading, const vsc_slot *slots, void *target)
 {
   const vsc_material_def *material = target;
-  if (material->active.kind != VSC_ACTIVE_SPRING) return VSC_OK;
+  if (material->active.kind != VSC_ACTIVE_SPRING || (BIT(material->law) & OF_TISSUES)) return VSC_OK;
   const vsc_slot *given_active = vsc_slot_value(&vsc_material_group, slots, "active");
   const bool given = vsc_slot_value(&active, given_active, "stiffness") != NULL;
   if (given == (material->law == VSC_LAW_SPRINGS)) return VSC_OK;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mech/element.h"
 
+#include <math.h>
 #include <string.h>
+
+#include "model/law_active.h"
 
 static void paper_law(const vsc_model *model, const vsc_patch *patch, size_t k, vsc_pack_law *law)
 {
@@ -29,10 +32,12 @@ vsc_pack_law vsc_pack_law_of(const vsc_model *model, const vsc_patch *patch, siz
                       .volume_modulus = moduli.volume_modulus,
                       .stabilization = moduli.stabilization,
                       .element_modulus = moduli.element_modulus,
+                      .viscosity = moduli.viscosity,
                       .share = moduli.share};
   memcpy(law.springs.axial, moduli.axial, sizeof moduli.axial);
   memcpy(law.springs.angular, moduli.angular, sizeof moduli.angular);
   memcpy(law.damping, moduli.damping, sizeof moduli.damping);
+  memcpy(law.coupling, moduli.coupling, sizeof moduli.coupling);
   law.active_axial =
       law.springs.axial[0] + law.share * (material->active_stiffness - material->axial[0]);
   if (patch->law_data) paper_law(model, patch, k, &law);
@@ -40,16 +45,19 @@ vsc_pack_law vsc_pack_law_of(const vsc_model *model, const vsc_patch *patch, siz
 }
 
 double vsc_active_tension(const vsc_material *material, const vsc_pack_law *law, int lane, double a,
-                          double stretch, double *nominal)
+                          const vsc_wide3 g[3], double *way)
 {
+  double square[3];
+  for (int i = 0; i < 3; i++) square[i] = vsc_wide_dot(g[i], g[i])[lane];
+  const double stretch = sqrt(square[0]);
   if (material->active == VSC_ACTIVE_TENSION) {
-    const double tension = law->share[lane] * a * material->tension;
-    *nominal = tension * stretch;
-    return tension;
+    const double *part = material->tension_parts;
+    *way = 0.5 * (square[0] - 1 + part[0] * (square[1] - 1) + part[1] * (square[2] - 1));
+    return law->share[lane] * vsc_tension_of(material, vsc_splat(a), vsc_splat(stretch))[lane];
   }
   const double passive = law->springs.axial[0][lane];
   const double E = passive + a * (law->active_axial[lane] - passive);
   const double rest = 1 - a * (1 - material->rest_stretch);
-  *nominal = E * (stretch - rest) - passive * (stretch - 1);
-  return *nominal;
+  *way = stretch;
+  return E * (stretch - rest) - passive * (stretch - 1);
 }

@@ -56,6 +56,8 @@ VSC_INLINE vsc_wide vsc_pack_ratio(const vsc_wide3 g[3])
 typedef struct vsc_pack_law {
   vsc_springs springs;
   vsc_wide damping[3];     // kPa ms
+  vsc_wide coupling[3];    // kPa
+  vsc_wide viscosity;      // kPa ms
   vsc_wide active_axial;   // kPa
   vsc_wide volume_modulus, stabilization, element_modulus;
   vsc_wide share;  // of the own material: 1 without inclusions
@@ -64,10 +66,10 @@ typedef struct vsc_pack_law {
 // Not inlined: called once for a pack.
 vsc_pack_law vsc_pack_law_of(const vsc_model *model, const vsc_patch *patch, size_t k);
 
-// Active tension of one frame (`lane` of a pack with the given law) at fibre stretch `stretch` and
-// activation `a`, kPa: T, or what the active spring adds to the passive one,
-// E_f(t) (stretch - r(t)) - E_f (stretch - 1). `nominal` is the same as force per area at rest.
+// Active tension of one frame (`lane` of a pack with the given law) with axes g at activation `a`,
+// kPa: T, or what the active spring adds to the passive one, E_f(t) (|g_f| - r(t)) - E_f (|g_f| - 1).
+// Along `way` it works: T d(E_ff + k_s E_ss + k_n E_nn), or that force d|g_f|; per volume at rest.
 double vsc_active_tension(const vsc_material *material, const vsc_pack_law *law, int lane, double a,
-                          double stretch, double *nominal);
+                          const vsc_wide3 g[3], double *way);
 
 #endif

@@ -2,6 +2,8 @@
 #include "mech/energies.h"
 
 #include "mech/element.h"
+#include "model/law.h"
+#include "model/law_viscous.h"
 #include "model/law_volume.h"
 
 static vsc_wide length_of(vsc_wide3 a)
@@ -49,9 +51,51 @@ static void add_more_axes(const vsc_model *model, const vsc_material *material, 
   }
 }
 
-static vsc_pack_energies spring_cells(const vsc_model *model, const vsc_patch *patch, size_t k,
-                                      const double *x, const double *v)
+static void add_springs(const vsc_model *model, const vsc_material *material,
+                        const vsc_pack_law *law, vsc_wide V, const vsc_wide3 g[3],
+                        const vsc_wide3 rate[3], vsc_pack_energies *sum)
 {
+  const vsc_frame_axes axes = vsc_frame_of(g);
+  sum->axial += V * vsc_springs_axial_energy(&law->springs, &axes);
+  sum->angular += V * vsc_springs_angular_energy(&law->springs, &axes);
+  for (int a = 0; a < 3; a++) {
+    const vsc_wide speed = vsc_wide_dot(rate[a], axes.u[a]);
+    sum->dissipation += V * law->damping[a] * speed * speed;
+    sum->axial += V * law->coupling[a] * (axes.length[a] - 1) * (axes.length[(a + 1) % 3] - 1);
+  }
+  add_more_axes(model, material, law->share * V, g, rate, sum);
+}
+
+// psi - m ln J of a tissue law.
+static void add_tissue(const vsc_material *material, vsc_wide V, const vsc_wide3 g[3],
+                       vsc_pack_energies *sum)
+{
+  const vsc_law_input in = {.material = material, .moduli = vsc_moduli_or(material, NULL)};
+  const vsc_wide J = vsc_pack_ratio(g);
+  vsc_law_answer answer;
+  vsc_wide e[6];
+  vsc_strain_of(g, e);
+  vsc_law_evaluate(&in, e, VSC_LAW_ENERGY, &answer);
+  sum->axial += V * answer.energy;
+  for (int l = 0; l < VSC_WIDTH; l++) {
+    sum->axial[l] += V[l] * vsc_rest_energy(material->rest_shear, J[l]);
+    sum->continued[l] += V[l] > 0 && answer.exponent[l] > VSC_LARGEST_EXPONENT;
+  }
+}
+
+// eta dE/dt : dE/dt
+static vsc_wide viscous_power(vsc_wide viscosity, const vsc_wide3 g[3], const vsc_wide3 rate[3])
+{
+  vsc_wide speed[6], square = vsc_splat(0);
+  vsc_strain_rate(g, rate, speed);
+  for (int k = 0; k < 6; k++) square += (k < 3 ? 1.0 : 0.5) * speed[k] * speed[k];
+  return viscosity * square;
+}
+
+static vsc_pack_energies cells(const vsc_model *model, const vsc_patch *patch, size_t k,
+                               const double *x, const double *v)
+{
+  const vsc_material *material = &model->materials[patch->material];
   const vsc_pack_law law = vsc_pack_law_of(model, patch, k);
   const vsc_frame *frames = vsc_pack_frames(model, patch, k);
   const int points = vsc_family_frames(model, patch->family);
@@ -62,15 +106,12 @@ static vsc_pack_energies spring_cells(const vsc_model *model, const vsc_patch *p
     vsc_wide3 g[3], rate[3] = {0};
     vsc_pack_axes(model, patch, k, q, x, g);
     if (model->terms.damping) vsc_pack_axes(model, patch, k, q, v, rate);
-    const vsc_frame_axes axes = vsc_frame_of(g);
     const vsc_wide J = vsc_pack_ratio(g);
-    sum.axial += V * vsc_springs_axial_energy(&law.springs, &axes);
-    sum.angular += V * vsc_springs_angular_energy(&law.springs, &axes);
-    for (int a = 0; a < 3; a++) {
-      const vsc_wide speed = vsc_wide_dot(rate[a], axes.u[a]);
-      sum.dissipation += V * law.damping[a] * speed * speed;
-    }
-    add_more_axes(model, &model->materials[patch->material], law.share * V, g, rate, &sum);
+    if (material->law == VSC_LAW_SPRINGS)
+      add_springs(model, material, &law, V, g, rate, &sum);
+    else
+      add_tissue(material, V, g, &sum);
+    sum.dissipation += V * viscous_power(law.viscosity, g, rate);
     sum.volume +=
         V * volume_energy(patch->family == VSC_TETS ? law.element_modulus : law.stabilization, J);
     rest += V;
@@ -222,6 +263,6 @@ vsc_pack_energies vsc_pack_energies_of(const vsc_model *model, const vsc_patch *
     case VSC_LAW_CLASSICAL:
       return (vsc_pack_energies){0};
     default:
-      return spring_cells(model, patch, k, x, v);
+      return cells(model, patch, k, x, v);
   }
 }

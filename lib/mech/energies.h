@@ -7,12 +7,14 @@
 
 // Of four elements; uJ and uJ/ms.
 typedef struct vsc_pack_energies {
-  vsc_wide axial;    // axial springs at their passive moduli, classical springs
+  vsc_wide axial;    // axial springs at their passive moduli and their couplings, classical springs;
+                     // of tissue laws all but volume
   vsc_wide angular;  // angular springs
   vsc_wide volume;   // the elements' own volume energies (not those of node groups)
   vsc_wide membrane;  // of membranes, in their planes
   vsc_wide bending;   // of membranes
   vsc_wide dissipation;
+  vsc_wide continued;  // number of frames beyond the law's largest exponent
 } vsc_pack_energies;
 
 // Energies of pack `k` of any patch at positions x (node_count x 4, in the model's order) and

@@ -67,11 +67,10 @@ static element_means mean_of_frames(const vsc_model *model, const vsc_state *sta
     mean.volume += V;
     for (int l = 0; active && l < VSC_WIDTH; l++) {
       const size_t slot = VSC_WIDTH * k + (size_t)l;
-      double nominal;
+      double way;
       if (model->mesh_element[slot] == VSC_NO_ELEMENT) continue;
       const double a = vsc_model_activation(model, material, slot, state->time);
-      mean.tension[l] +=
-          V[l] * vsc_active_tension(material, &law, l, a, frame.length[0][l], &nominal);
+      mean.tension[l] += V[l] * vsc_active_tension(material, &law, l, a, g, &way);
     }
   }
   return mean;

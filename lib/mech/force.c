@@ -159,7 +159,8 @@ static vsc_patch_work prepare(const evaluation *e, const vsc_patch *patch, const
       .damping = e->w != NULL && (patch->mixed ? model->terms.damping : material->damped),
       .active = passive ? VSC_ACTIVE_NONE : material->active,
       .nodal_volume = vsc_patch_shares_volume(model, patch),
-      .composed = patch->mixed || material->axis_count + material->pair_count > 0};
+      .composed = patch->mixed || material->axis_count + material->pair_count > 0,
+      .general = material->general || (patch->mixed && model->terms.general)};
   gather(model, patch, e->x, local->x);
   if (choice->damping) gather(model, patch, e->w, local->w);
   if (choice->nodal_volume) gather_pressures(e, patch, local->pressure);
@@ -177,7 +178,8 @@ static vsc_patch_work prepare(const evaluation *e, const vsc_patch *patch, const
       .f = local->f,
       .pressure = local->pressure,
       .activation = local->activation,
-      .activation_stride = stride};
+      .activation_stride = stride,
+      .shares_volume = choice->nodal_volume};
 }
 
 static void patch_force(void *context, size_t p, int thread)
@@ -236,7 +238,6 @@ vsc_patch_work vsc_patch_prepare(const vsc_model *model, const vsc_patch *patch,
   const local_arrays local = local_of(&e, thread);
   vsc_kernel_choice choice;
   vsc_patch_work work = prepare(&e, patch, &local, &choice);
-  work.shares_volume = choice.nodal_volume;
   if (!choice.damping) work.w = NULL;
   return work;
 }

@@ -16,6 +16,7 @@ static vsc_patch_kernel *cell_kernel(const vsc_kernels *set, const vsc_kernel_ch
   if (c->law == VSC_LAW_CLASSICAL) return NULL;
   if (c->law == VSC_LAW_PAPER)
     return c->family == VSC_TETS ? set->paper_tets[c->damping] : set->paper_hexes[c->damping];
+  if (c->general) return set->laws[c->damping][c->family];
   if (c->family == VSC_TETS) return set->tets[c->composed][c->damping][c->active][c->nodal_volume];
   return set->solids[c->damping][c->family - VSC_HEXES];
 }

@@ -24,9 +24,8 @@ typedef struct vsc_patch_work {
   const vsc_wide
       *activation;  // of each pack, or of all when activation_stride is 0; used when active
   size_t activation_stride;
-  // tangents only: what of -df/dx and of -df/dw goes into them, and whether the pressures of nodes count
-  double stiffness_factor, damping_factor;
-  bool shares_volume;
+  bool shares_volume;  // whether the pressures of nodes count
+  double stiffness_factor, damping_factor;  // of -df/dx and of -df/dw, what goes into tangents
   double *f;       // forces, mN: added to
   double *volume;  // quarter volumes, mm^3: added to, by the volume pass
 } vsc_patch_work;
@@ -45,6 +44,7 @@ typedef struct vsc_kernel_choice {
   vsc_active_kind active;
   bool nodal_volume;
   bool composed;  // further axes or pairs, or inclusions
+  bool general;   // the kernel of any law of strain
 } vsc_kernel_choice;
 
 // The force kernel for the processor this runs on; NULL where the patch itself has no force (cells

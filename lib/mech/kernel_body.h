@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The text of the kernels, included by one source file per instruction set. KERNEL_SET names it.
-// Here: linear tets under law SPRINGS. Other cells are in kernel_solid.h, the laws that are there to
-// be compared with in kernel_paper.h, membranes in kernel_surface.h.
+// Here: linear tets under law SPRINGS. Other cells are in kernel_solid.h, other laws of strain in
+// kernel_law.h, the laws that are there to be compared with in kernel_paper.h, membranes in
+// kernel_surface.h.
 #include <string.h>
 
 #include "mech/kernel_common.h"
 #include "mech/kernel_sets.h"
 #include "mech/kernel_tets.h"
 // what the tets have is used by these
+#include "mech/kernel_law.h"
 #include "mech/kernel_paper.h"
 #include "mech/kernel_solid.h"
 #include "mech/kernel_surface.h"
@@ -46,6 +48,9 @@ const vsc_kernels KERNEL_SET = {
     .solids = {{force_hexes, force_wedges, force_pyramids, force_tets10},
                {force_damped_hexes, force_damped_wedges, force_damped_pyramids,
                 force_damped_tets10}},
+    .laws = {{law_tets, law_hexes, law_wedges, law_pyramids, law_tets10},
+             {law_damped_tets, law_damped_hexes, law_damped_wedges, law_damped_pyramids,
+              law_damped_tets10}},
     .paper_tets = {force_paper_tets, force_damped_paper_tets},
     .paper_hexes = {force_paper_hexes, force_damped_paper_hexes},
     .springs = {force_springs, force_damped_springs},

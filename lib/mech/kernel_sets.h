@@ -9,6 +9,7 @@ typedef struct vsc_kernels {
   const char *name;
   vsc_patch_kernel *tets[2][2][3][2];    // [composed][damping][active kind][nodal volume]
   vsc_patch_kernel *solids[2][4];        // [damping][hexes, wedges, pyramids, quadratic tets]
+  vsc_patch_kernel *laws[2][VSC_CELLS];  // any law of strain: [damping][family]
   vsc_patch_kernel *paper_tets[2];       // [damping]
   vsc_patch_kernel *paper_hexes[2];      // [damping]
   vsc_patch_kernel *springs[2];          // classical: [damping]

@@ -110,6 +110,23 @@ VSC_INLINE void derivatives(const vsc_cell_rule *rule, int corners, int points, 
     plain_derivatives(rule, corners, points, x, h);
 }
 
+VSC_INLINE void solid_back(const vsc_cell_rule *rule, int corners, int points,
+                           vsc_wide3 (*flux)[3], vsc_wide3 *f)
+{
+  if (corners == 8)
+    hex_back(flux, f);
+  else
+    plain_back(rule, corners, points, flux, f);
+}
+
+// What goes back to the corners from a frame under stress P: f_i = -sum_k D_ki V sum_a P_a T_ak.
+VSC_INLINE void solid_flux(const vsc_frame *frame, const vsc_wide3 P[3], vsc_wide3 flux[3])
+{
+  for (int i = 0; i < 3; i++)
+    flux[i] = vsc_wide_scale(-frame->V, vsc_wide_combine(frame->T[0][i], P[0], frame->T[1][i], P[1],
+                                                         frame->T[2][i], P[2]));
+}
+
 // g_a = sum_k T_ak h_k
 VSC_INLINE void solid_axes(const vsc_frame *frame, const vsc_wide3 h[3], vsc_wide3 g[3])
 {
@@ -176,15 +193,9 @@ VSC_INLINE void solid_kernel(const vsc_patch_work *work, int corners, int points
       vsc_wide3 rate[3], P[3];
       if (damping) solid_axes(frame, speed[q], rate);
       solid_stress(work, k, &moduli, g[q], rate, damping, pressure, P);
-      // f_i = -sum_k D_ki V sum_a P_a T_ak
-      for (int i = 0; i < 3; i++)
-        h[q][i] = vsc_wide_scale(-frame->V, vsc_wide_combine(frame->T[0][i], P[0], frame->T[1][i],
-                                                             P[1], frame->T[2][i], P[2]));
+      solid_flux(frame, P, h[q]);
     }
-    if (corners == 8)
-      hex_back(h, f);
-    else
-      plain_back(work->rule, corners, points, h, f);
+    solid_back(work->rule, corners, points, h, f);
     for (int c = 0; c < corners; c++) scatter_corner(node[c], f[c], work->f);
   }
 }

@@ -4,11 +4,8 @@
 #ifndef VSC_MECH_KERNEL_TANGENT_H
 #define VSC_MECH_KERNEL_TANGENT_H
 
-#include "mech/kernel_common.h"
-#include "mech/kernel_solid.h"
+#include "mech/kernel_law.h"
 #include "mech/kernel_tets.h"
-#include "model/law.h"
-#include "model/law_viscous.h"
 
 // One frame of four cells, ready for its tangent.
 typedef struct tangent_frame {
@@ -39,6 +36,13 @@ VSC_INLINE void open_frame(const vsc_frame *frame, const double (*D)[VSC_MOST_CO
   }
 }
 
+// S and D of four frames at strain e. Not inlined: there is one copy of the laws for all kinds of cells.
+static __attribute__((noinline)) void law_tangent(const vsc_law_input *in, const vsc_wide e[6],
+                                                  vsc_law_answer *answer)
+{
+  vsc_law_evaluate(in, e, VSC_LAW_TANGENT, answer);
+}
+
 // S and D of the frame, both as the system weighs them: stiffness_factor for positions,
 // damping_factor for velocities.
 VSC_INLINE void weigh_answer(const vsc_patch_work *work, const vsc_law_input *in, const vsc_wide3 g[3],
@@ -46,15 +50,11 @@ VSC_INLINE void weigh_answer(const vsc_patch_work *work, const vsc_law_input *in
 {
   vsc_wide e[6];
   vsc_strain_of(g, e);
-  vsc_law_evaluate(in, e, VSC_LAW_TANGENT, answer);
+  law_tangent(in, e, answer);
   vsc_wide viscous[6][6], speed[6];
   if (rate != NULL) {
     vsc_law_viscous(in->material, &in->moduli, in->axes, e, viscous);
-    for (int a = 0; a < 3; a++) {
-      const int b = (a + 1) % 3;
-      speed[a] = vsc_wide_dot(g[a], rate[a]);
-      speed[3 + a] = vsc_wide_dot(g[a], rate[b]) + vsc_wide_dot(g[b], rate[a]);
-    }
+    vsc_strain_rate(g, rate, speed);
   }
   for (int k = 0; k < 6; k++) {
     for (int l = 0; rate != NULL && l < 6; l++) answer->S[k] += viscous[k][l] * speed[l];
@@ -186,9 +186,13 @@ VSC_INLINE void tangent_kernel(const vsc_patch_work *work, size_t k, int corners
     if (work->w != NULL) solid_axes(&frames[q], speed[q], rate);
     open_frame(&frames[q], work->rule->D[q], corners, g[q], &frame);
     weigh_answer(work, &in, g[q], work->w != NULL ? rate : NULL, &answer);
-    const vsc_wide p = shared.pressure + vsc_volume_stress(own, frame.J);
+    const vsc_wide rest = vsc_splat(work->material->rest_shear);
+    const vsc_wide p = shared.pressure + vsc_volume_stress(own, frame.J) +
+                       vsc_rest_stress(rest, frame.J);
+    const vsc_wide curvature =
+        vsc_volume_curvature(own, frame.J) + vsc_rest_curvature(rest, frame.J);
     add_frame_tangent(&frame, &answer, frames[q].V, work->stiffness_factor * p,
-                      work->stiffness_factor * vsc_volume_curvature(own, frame.J), corners, K);
+                      work->stiffness_factor * curvature, corners, K);
     for (int c = 0; c < corners; c++)
       b[c] = vsc_wide_add(b[c], vsc_wide_scale(frames[q].V, frame.c[c]));
   }

@@ -19,7 +19,7 @@ vsc_status vsc_ledger_create(const vsc_model *model, vsc_ledger **ledger, vsc_er
   const size_t slots = model->terms.active != VSC_ACTIVE_NONE ? VSC_WIDTH * model->frame_count : 0;
   vsc_ledger *made;
   *ledger = NULL;
-  if (!VSC_NEW(made, 1) || !VSC_NEW(made->stretch, slots) || !VSC_NEW(made->tension, slots) ||
+  if (!VSC_NEW(made, 1) || !VSC_NEW(made->way, slots) || !VSC_NEW(made->tension, slots) ||
       !VSC_NEW(made->push, vsc_loads_push_count(model)) || !VSC_NEW(made->parts, model->patch_count)) {
     vsc_ledger_free(made);
     return vsc_fail_memory(error, "the energy ledger");
@@ -31,7 +31,7 @@ vsc_status vsc_ledger_create(const vsc_model *model, vsc_ledger **ledger, vsc_er
 void vsc_ledger_free(vsc_ledger *ledger)
 {
   if (ledger == NULL) return;
-  vsc_free(ledger->stretch);
+  vsc_free(ledger->way);
   vsc_free(ledger->tension);
   vsc_free(ledger->push);
   vsc_free(ledger->parts);
@@ -47,19 +47,19 @@ typedef struct observation {
 // Active tension of one frame: its range, and its work since the last call. `place` is where the
 // ledger keeps the frame.
 static void add_active(const observation *o, const vsc_material *material, const vsc_pack_law *law,
-                       int lane, double activation, size_t place, double V, double stretch,
-                       vsc_totals *part)
+                       int lane, double activation, size_t place, double V,
+                       const vsc_wide3 g[3], vsc_totals *part)
 {
   vsc_ledger *ledger = o->ledger;
-  double nominal;
-  const double tension = vsc_active_tension(material, law, lane, activation, stretch, &nominal);
+  double way;
+  const double tension = vsc_active_tension(material, law, lane, activation, g, &way);
   part->tension_high = fmax(part->tension_high, tension);
   part->tension_mean += V * tension;
-  // a tension that shortens the fibre does work: - T d lambda
+  // a tension that shortens the fibre does work
   part->active_work -=
-      V * 0.5 * (nominal + ledger->tension[place]) * (stretch - ledger->stretch[place]);
-  ledger->stretch[place] = stretch;
-  ledger->tension[place] = nominal;
+      V * 0.5 * (tension + ledger->tension[place]) * (way - ledger->way[place]);
+  ledger->way[place] = way;
+  ledger->tension[place] = tension;
 }
 
 // What the frames of one pack of cells show: volume ratios, stretches, active tension.
@@ -94,7 +94,7 @@ static void observe_frames(const observation *o, const vsc_patch *patch, size_t 
       if (active)
         add_active(o, material, &law, l,
                    vsc_model_activation(model, material, slot, o->state->time),
-                   VSC_WIDTH * frame + (size_t)l, V[l], stretch[l], part);
+                   VSC_WIDTH * frame + (size_t)l, V[l], g, part);
     }
   }
   for (int l = 0; l < VSC_WIDTH; l++) part->inverted += inverted[l];
@@ -111,6 +111,7 @@ static void observe_pack(const observation *o, const vsc_patch *patch, size_t k,
     part->membrane += energies.membrane[l];
     part->bending += energies.bending[l];
     part->dissipation += energies.dissipation[l];
+    part->continued += energies.continued[l];
   }
   if (vsc_patch_is_solid(patch)) observe_frames(o, patch, k, part);
 }
@@ -148,6 +149,7 @@ static void add_part(const vsc_totals *part, vsc_totals *totals)
   totals->J_low = fmin(totals->J_low, part->J_low);
   totals->J_high = fmax(totals->J_high, part->J_high);
   totals->inverted += part->inverted;
+  totals->continued += part->continued;
   totals->stretch_low = fmin(totals->stretch_low, part->stretch_low);
   totals->stretch_high = fmax(totals->stretch_high, part->stretch_high);
   totals->stretch_mean += part->stretch_mean;

@@ -9,7 +9,7 @@
 // Sums and ranges over the whole body at one moment.
 typedef struct vsc_totals {
   double kinetic;                // sum m |v|^2 / 2, uJ
-  double axial;                  // axial springs at their passive moduli, uJ
+  double axial;                  // axial springs at their passive moduli; all of tissue laws, uJ
   double angular;                // angular springs, uJ
   double volume_energy;          // all volume groups, uJ
   double membrane;               // membranes in their planes, uJ
@@ -28,6 +28,7 @@ typedef struct vsc_totals {
       tension_mean;    // active tension, kPa (mean by rest volume, over active materials)
   double known_volume; // rest volume of the elements with a known fibre, mm^3
   double inverted;     // number of elements with J <= 0 in a frame
+  double continued;    // number of frames beyond a law's largest exponent (model/law_exponential.h)
   double contact_work;   // done by moving obstacles since the start, uJ
   double contact_lost;   // in impacts and friction since the start, uJ
   double support_work;   // done by moving supports since the start, uJ
@@ -45,8 +46,9 @@ typedef struct vsc_ledger {
   double time;         // of the last call, ms
   double dissipation;  // power at the last call, uJ/ms
   double calls;
-  double *stretch;  // frames x 4: fibre stretch at the last call; NULL when nothing is active. Owned
-  double *tension;  // frames x 4: nominal active tension at the last call, kPa. Owned
+  double *way;      // frames x 4: along which tension worked, at the last call (mech/element.h);
+                    // NULL when nothing is active. Owned
+  double *tension;  // frames x 4: active tension at the last call, kPa. Owned
   double *push;     // forces and places of the nodes under pressure (mech/loads.h). Owned
   vsc_totals *parts;  // patch_count. Owned
 } vsc_ledger;

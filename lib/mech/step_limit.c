@@ -6,6 +6,7 @@
 
 #include "mech/element.h"
 #include "mech/force.h"
+#include "model/small_strain.h"
 
 // Noise in each estimate's first vector, as a part of its length. The estimate's error from it is
 // below NOISE^2/20 after four iterations.
@@ -101,26 +102,35 @@ void vsc_limit_refresh(const vsc_model *model, vsc_state *state, double time, in
   limit->refreshes++;
 }
 
-// A bound of the tangent of four elements' springs at rest: E_a along an axis, 2 G_ab across; a fibre
-// that pulls with a tension T adds T across, T = E_f (1 - r) in an active spring. Further axes add
-// theirs.
+// What a tension at full activation adds to the tangent: T to the axes that it pulls, and as it grows
+// with length |T'| of the vector (1, k_s, k_n).
+static double tension_stiffness(const vsc_material *m)
+{
+  const double *part = m->tension_parts, most = fmax(1, fmax(part[0], part[1]));
+  if (m->active != VSC_ACTIVE_TENSION) return 0;
+  return m->tension * (most + fabs(m->length_factor) * sqrt(1 + part[0] * part[0] + part[1] * part[1]));
+}
+
+// A bound of the tangent of four elements' springs at rest: E_a along an axis, 2 G_ab across, and all
+// couplings; a fibre that pulls with a tension T adds T across, T = E_f (1 - r) in an active spring.
+// Further axes add theirs.
 static vsc_wide stiffest_springs(const vsc_model *model, const vsc_patch *patch, size_t k)
 {
   const vsc_material *material = &model->materials[patch->material];
   const vsc_pack_law law = vsc_pack_law_of(model, patch, k);
   vsc_wide most;
   for (int l = 0; l < VSC_WIDTH; l++) {
-    double along = 0, across = 0, tension = 0;
+    double along = 0, across = 0, tension = 0, coupled = 0;
     for (int a = 0; a < 3; a++) {
       along = fmax(along, law.springs.axial[a][l]);
       across = fmax(across, 2 * law.springs.angular[a][l]);
+      coupled += fabs(law.coupling[a][l]);
     }
     if (material->active == VSC_ACTIVE_SPRING) {
       along = fmax(along, law.active_axial[l]);
       tension = along * (1 - material->rest_stretch);
     }
-    most[l] = material->active == VSC_ACTIVE_TENSION ? fmax(along, across) + material->tension
-                                                     : fmax(along, across + tension);
+    most[l] = fmax(along, across + tension) + tension_stiffness(material) + coupled;
   }
   for (size_t d = 0; d < material->axis_count; d++)
     most += model->axes[material->first_axis + d].modulus;
@@ -165,11 +175,20 @@ static double radial_stiffness(const vsc_material *material, uint32_t family)
   return material->law == VSC_LAW_PAPER ? material->paper.volume * (family == VSC_TETS ? 4 : 2) : 0;
 }
 
+// The tangent of four cells at rest, volume aside.
+static vsc_wide stiffest(const vsc_model *model, const vsc_patch *patch, size_t k)
+{
+  const vsc_material *material = &model->materials[patch->material];
+  if (material->law == VSC_LAW_SPRINGS || material->law == VSC_LAW_PAPER)
+    return stiffest_springs(model, patch, k);
+  return vsc_splat(vsc_material_stiffest(model, material) + tension_stiffness(material));
+}
+
 static void add_cell_stiffness(const vsc_model *model, const vsc_patch *patch, double *stiffness)
 {
   const double radial = radial_stiffness(&model->materials[patch->material], patch->family);
   for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++) {
-    const vsc_wide modulus = stiffest_springs(model, patch, k) + volume_moduli(model, patch, k);
+    const vsc_wide modulus = stiffest(model, patch, k) + volume_moduli(model, patch, k);
     for (int c = 0; c < vsc_family_corners(patch->family); c++) {
       const vsc_wide square = gradient_squares(model, patch, k, c);
       for (int l = 0; l < VSC_WIDTH; l++)

@@ -17,7 +17,8 @@ void vsc_limit_refresh(const vsc_model *model, vsc_state *state, double time, in
 // An upper bound of lambda at rest without damping that needs no iteration, with the element behind it:
 //   lambda <= max_e sum_{i in e} D_i / M_i,  D_i = sum_e V (K + A) |B_i|^2
 // (the element eigenvalue with the assembled nodal mass shared in proportion to stiffness). `slot` is the
-// element that limits the step. A = max(E_a, 2 G_ab) with full activation; with node-averaged volume
+// element that limits the step. A = max(E_a, 2 G_ab) with full activation, or of a tissue law
+// its stiffest (model/small_strain.h); with node-averaged volume
 // K is the mean of the nodes' (the average of J is never stiffer), so that the bound is further off.
 double vsc_limit_bound(const vsc_model *model, vsc_scratch *scratch, size_t *slot);
 

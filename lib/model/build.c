@@ -80,8 +80,72 @@ static bool is_damped(const vsc_material_def *def)
   }
   if (def->law == VSC_LAW_PAPER) most = fmax(most, def->paper.volume_damping);
   if (def->law == VSC_LAW_CLASSICAL) most = fmax(most, def->classical.damping);
+  if (vsc_law_is_of_strain(def->law)) most = fmax(most, def->viscosity);
   for (size_t k = 0; k < def->axis_count; k++) most = fmax(most, def->axes[k].damping);
   return most > 0;
+}
+
+// The constants of a tissue law, and the stress that it would have at rest without the logarithm.
+static void copy_law(const vsc_material_def *def, vsc_material *material)
+{
+  const vsc_guccione_def *guccione = &def->guccione;
+  const double bf = guccione->fibre, bt = guccione->cross, bfs = guccione->shear;
+  switch (def->law) {
+    case VSC_LAW_NEO_HOOKEAN:
+      material->shear = material->rest_shear = def->shear;
+      break;
+    case VSC_LAW_GUCCIONE:
+      material->fung = (vsc_fung_def){guccione->C, {bf, bt, bt, bfs, bt, bfs}};
+      break;
+    case VSC_LAW_FUNG:
+      material->fung = def->fung;
+      break;
+    case VSC_LAW_HOLZAPFEL_OGDEN:
+      material->holzapfel_ogden = def->holzapfel_ogden;
+      material->compression = def->compression;
+      material->rest_shear = def->holzapfel_ogden.a;
+      break;
+    case VSC_LAW_MOONEY_RIVLIN:
+      material->invariants = def->mooney_rivlin;
+      material->rest_shear = 2 * def->mooney_rivlin.c1 + 4 * def->mooney_rivlin.c2;
+      break;
+    case VSC_LAW_VERONDA_WESTMANN:
+      material->invariants = def->veronda_westmann;
+      break;
+    default:
+      return;
+  }
+  material->isochoric = def->isochoric;
+  if (def->isochoric) material->rest_shear = 0;
+}
+
+// What all laws of strain have.
+static void copy_moduli(const vsc_material_def *def, vsc_volume_kind volume, vsc_material *material)
+{
+  const bool nodal = volume == VSC_VOLUME_NODAL;
+  material->volume_modulus = def->volume_modulus;
+  material->stabilization = nodal ? def->stabilization : 0;
+  material->element_modulus = nodal ? def->stabilization : def->volume_modulus;
+  material->viscosity = def->viscosity;
+  if (def->law != VSC_LAW_SPRINGS) return;
+  memcpy(material->axial, def->axial, sizeof material->axial);
+  memcpy(material->angular, def->angular, sizeof material->angular);
+  memcpy(material->coupling, def->coupling, sizeof material->coupling);
+  memcpy(material->damping, def->damping, sizeof material->damping);
+}
+
+static bool has_coupling(const vsc_material *material)
+{
+  return material->coupling[0] != 0 || material->coupling[1] != 0 || material->coupling[2] != 0;
+}
+
+static bool needs_general(const vsc_material *material)
+{
+  const bool plain_tension = material->length_factor == 0 && material->tension_parts[0] == 0 &&
+                             material->tension_parts[1] == 0;
+  return vsc_law_is_of_strain(material->law) &&
+         (material->law != VSC_LAW_SPRINGS || has_coupling(material) || material->viscosity > 0 ||
+          (material->active == VSC_ACTIVE_TENSION && !plain_tension));
 }
 
 static vsc_status copy_material(const vsc_material_def *def, const vsc_definition *definition,
@@ -91,22 +155,19 @@ static vsc_status copy_material(const vsc_material_def *def, const vsc_definitio
   material->density = def->density;
   material->law = def->law;
   material->damped = is_damped(def);
-  if (def->law == VSC_LAW_SPRINGS) {
-    memcpy(material->axial, def->axial, sizeof material->axial);
-    memcpy(material->angular, def->angular, sizeof material->angular);
-    memcpy(material->damping, def->damping, sizeof material->damping);
-    material->volume_modulus = def->volume_modulus;
-    const bool nodal = definition->volume == VSC_VOLUME_NODAL;
-    material->stabilization = nodal ? def->stabilization : 0;
-    material->element_modulus = nodal ? def->stabilization : def->volume_modulus;
-    copy_axes(def, material, model);
-  }
+  if (vsc_law_is_of_strain(def->law)) copy_moduli(def, definition->volume, material);
+  if (def->law == VSC_LAW_SPRINGS) copy_axes(def, material, model);
+  copy_law(def, material);
   if (def->law == VSC_LAW_PAPER) material->paper = def->paper;
   if (def->law == VSC_LAW_CLASSICAL) material->classical = def->classical;
   material->active = def->active.kind;
   material->active_stiffness = def->active.stiffness;
   material->rest_stretch = def->active.rest_stretch;
   material->tension = def->active.tension;
+  material->length_factor = def->active.length_factor;
+  material->tension_parts[0] = def->active.sheet_fraction;
+  material->tension_parts[1] = def->active.normal_fraction;
+  material->general = needs_general(material);
   material->delay = def->active.delay;
   if (def->active.kind == VSC_ACTIVE_NONE) return VSC_OK;
   return vsc_curve_build(&def->active.curve, definition->end_time, &material->curve, error);
@@ -131,6 +192,7 @@ static vsc_status build_materials(const vsc_definition *definition, vsc_model *m
     const vsc_material *material = &model->materials[m];
     model->terms.damping |= material->damped;
     model->terms.paper |= material->law == VSC_LAW_PAPER;
+    model->terms.general |= has_coupling(material) || material->viscosity > 0;
     if (material->active == VSC_ACTIVE_NONE) continue;
     if (model->terms.active != VSC_ACTIVE_NONE && model->terms.active != material->active)
       return vsc_fail(
@@ -236,7 +298,7 @@ static vsc_status check_fibres(const vsc_model *model, vsc_error *error)
       "fibers.source (map, arrays, helix, constant, ...)");
 }
 
-// Node groups exist where tets of law SPRINGS do.
+// Node groups exist where tets under a law of strain do.
 static bool any_shares_volume(const vsc_model *model)
 {
   for (size_t p = 0; p < model->patch_count; p++)

@@ -22,7 +22,7 @@ vsc_active_def vsc_default_active(void)
 
 vsc_material_def vsc_default_material(void)
 {
-  vsc_material_def material = {.density = 1.06};
+  vsc_material_def material = {.density = 1.06, .holzapfel_ogden.steepness = 100};
   material.active = vsc_default_active();
   return material;
 }

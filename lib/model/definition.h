@@ -43,7 +43,8 @@ typedef enum vsc_active_kind {
   VSC_ACTIVE_SPRING,   // the fibre spring itself changes: E_f(t) = E_f + a (stiffness - E_f),
                        // rest stretch r(t) = 1 - a (1 - rest_stretch)
   VSC_ACTIVE_TENSION,  // a tension T(t) = a tension along the fibre, as second Piola-Kirchhoff
-                       // stress: S += T f0 f0 (Land et al. 2015), that is P_f += T g_f
+                       // stress: S += T f0 f0 (Land et al. 2015), that is P_f += T g_f; it may
+                       // depend on length and act across the fibre (model/law_active.h)
 } vsc_active_kind;
 
 // Activation a = amplitude . curve(t - delay) of an element, 0 at rest and 1 at the peak.
@@ -52,6 +53,8 @@ typedef struct vsc_active_def {
   double stiffness;      // SPRING: fibre modulus at a = 1, kPa
   double rest_stretch;   // SPRING: rest stretch at a = 1, in (0, 1]; default 1
   double tension;        // TENSION: at a = 1, kPa
+  double length_factor;  // TENSION: beta of T = a tension max(0, 1 + beta (|g_f| - 1)); default 0
+  double sheet_fraction, normal_fraction;  // TENSION: of T along s and n; default 0
   vsc_curve_def curve;
   double delay;                    // ms, default 0
   char amplitude_array[VSC_NAME];  // cell array that multiplies the amplitude; empty: 1
@@ -66,7 +69,20 @@ typedef enum vsc_law {
                       // gradient of an energy: neither energy nor momenta are kept
   VSC_LAW_CLASSICAL,  // a damped spring on each edge of the mesh, and on the main diagonals of
                       // hexahedra
+  // tissue laws, functions of strain: psi(E) per volume beside the volume energy
+  VSC_LAW_NEO_HOOKEAN,       // model/law_neo_hookean.h
+  VSC_LAW_GUCCIONE,          // model/law_fung.h, transversely isotropic
+  VSC_LAW_FUNG,              // model/law_fung.h, orthotropic; Usyk's law
+  VSC_LAW_HOLZAPFEL_OGDEN,   // model/law_holzapfel_ogden.h
+  VSC_LAW_MOONEY_RIVLIN,     // model/law_mooney_rivlin.h
+  VSC_LAW_VERONDA_WESTMANN,  // model/law_veronda_westmann.h
 } vsc_law;
+
+// Whether the law is a function of strain on the elements' frames, with a volume energy beside it.
+static inline bool vsc_law_is_of_strain(vsc_law law)
+{
+  return law != VSC_LAW_PAPER && law != VSC_LAW_CLASSICAL;
+}
 
 // Constants of LAW_PAPER, the same for each element whatever its size (mN/mm = N/m).
 typedef struct vsc_paper_def {
@@ -83,6 +99,39 @@ typedef struct vsc_classical_def {
   double stiffness;  // k_s, mN/mm
   double damping;    // k_d, mN ms/mm
 } vsc_classical_def;
+
+// Constants of LAW_GUCCIONE.
+typedef struct vsc_guccione_def {
+  double C;                     // kPa
+  double fibre, cross, shear;   // bf, bt, bfs
+} vsc_guccione_def;
+
+// Constants of LAW_FUNG.
+typedef struct vsc_fung_def {
+  double C;     // kPa
+  double b[6];  // b_ff, b_ss, b_nn, b_fs, b_sn, b_nf
+} vsc_fung_def;
+
+// What becomes of fibres in compression (LAW_HOLZAPFEL_OGDEN).
+typedef enum vsc_fibre_switch {
+  VSC_FIBRES_ALWAYS,  // nothing (default)
+  VSC_FIBRES_SHARP,   // they are switched off
+  VSC_FIBRES_SMOOTH,  // likewise, by a logistic function
+} vsc_fibre_switch;
+
+// Constants of LAW_HOLZAPFEL_OGDEN.
+typedef struct vsc_holzapfel_ogden_def {
+  double a, b;                // of the ground: kPa, 1
+  double a_f, b_f, a_s, b_s;  // of fibres and sheets; default 0: none
+  double a_fs, b_fs;          // between them
+  double kappa_f, kappa_s;    // dispersions, 0 to 1/3; default 0
+  double steepness;           // k of SMOOTH; default 100
+} vsc_holzapfel_ogden_def;
+
+// Constants of LAW_MOONEY_RIVLIN (both kPa) and LAW_VERONDA_WESTMANN (kPa, 1).
+typedef struct vsc_invariants_def {
+  double c1, c2;
+} vsc_invariants_def;
 
 enum { VSC_MOST_AXES = 64 };  // beside f, s, n
 
@@ -108,7 +157,7 @@ typedef struct vsc_inclusion_def {
 
 // A tissue. Springs law (Bourguignon & Cani 2000, energy form) on the frame axes g_f, g_s, g_n with
 // u_a = g_a/|g_a|, c_ab = u_a . u_b:
-//   psi = sum_a E_a (|g_a| - 1)^2 / 2 + sum_{a<b} G_ab c_ab^2 / 2
+//   psi = sum_a E_a (|g_a| - 1)^2 / 2 + sum_{a<b} [G_ab c_ab^2 / 2 + H_ab (|g_a| - 1) (|g_b| - 1)]
 typedef struct vsc_material_def {
   char name[VSC_NAME];
   size_t region_count;    // 0: every element that no other material names
@@ -116,13 +165,23 @@ typedef struct vsc_material_def {
   double density;         // mg/mm^3; default 1.06
   double axial[3];        // E_f, E_s, E_n, kPa
   double angular[3];      // G_fs, G_sn, G_nf, kPa
+  double coupling[3];     // H_fs, H_sn, H_nf, kPa; default 0
   double damping[3];      // axial viscosity eta_f, eta_s, eta_n, kPa ms; default 0
+  double viscosity;       // laws of strain: eta of S = eta dE/dt, kPa ms; default 0
+  bool isochoric;         // tissue laws: on the deformation without its change of volume, of
+                          // HOLZAPFEL_OGDEN the ground alone; default false: on all of it
   double volume_modulus;  // K, kPa, of U(J) = K/4 (J^2 - 1 - 2 ln J); default 0
   double stabilization;   // Ks, kPa: the same energy of each frame beside a shared volume
   vsc_active_def active;
   vsc_law law;
   vsc_paper_def paper;          // law PAPER; axial, angular, damping and volume_modulus are not used
   vsc_classical_def classical;  // law CLASSICAL; likewise
+  double shear;                 // law NEO_HOOKEAN: mu, kPa
+  vsc_guccione_def guccione;
+  vsc_fung_def fung;
+  vsc_holzapfel_ogden_def holzapfel_ogden;
+  vsc_fibre_switch compression;  // law HOLZAPFEL_OGDEN; default ALWAYS
+  vsc_invariants_def mooney_rivlin, veronda_westmann;
   size_t axis_count;            // law SPRINGS: axes beside f, s, n
   vsc_axis_def *axes;           // owned
   size_t pair_count;            // law SPRINGS: angular springs beside fs, sn, nf

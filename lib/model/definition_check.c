@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "model/definition.h"
+#include "model/law_constants.h"
 
 static const char boundary_name[] = "boundary";
 
@@ -98,12 +99,17 @@ static void check_active(checker *c, size_t item, const vsc_active_def *active, 
        "law: classical has no fibre that could contract; use springs or paper");
   need(c, law != VSC_LAW_PAPER || active->kind == VSC_ACTIVE_SPRING, "kind", active->kind, "",
        "law: paper knows active springs only; use kind: spring");
+  need(c, law == VSC_LAW_PAPER || law == VSC_LAW_SPRINGS || active->kind == VSC_ACTIVE_TENSION,
+       "kind", active->kind, "", "only springs have a spring that could be active; use kind: tension");
   if (active->kind == VSC_ACTIVE_SPRING) {
     need_not_negative(c, "stiffness", active->stiffness, "kPa");
     need(c, active->rest_stretch > 0 && active->rest_stretch <= 1, "rest_stretch",
          active->rest_stretch, "", "give a stretch above 0 and up to 1");
   } else {
     need_not_negative(c, "tension", active->tension, "kPa");
+    need_finite(c, "length_factor", active->length_factor, "");
+    need_not_negative(c, "sheet_fraction", active->sheet_fraction, "");
+    need_not_negative(c, "normal_fraction", active->normal_fraction, "");
   }
   need_finite(c, "delay", active->delay, "ms");
   need_positive(c, "delay_unit", active->delay_unit, "ms", "give a time above zero");
@@ -138,6 +144,22 @@ static void check_more_axes(checker *c, const vsc_material_def *material)
   }
 }
 
+// Springs along the axes with their couplings and K must resist every change of length: the leading
+// minors of E_a delta_ab + H_ab + K are positive.
+static void check_coupling(checker *c, const vsc_material_def *m)
+{
+  static const char *const keys[] = {"coupling.fs", "coupling.sn", "coupling.nf"};
+  const double *E = m->axial, *H = m->coupling, K = m->volume_modulus;
+  for (int a = 0; a < 3; a++) need_finite(c, keys[a], H[a], "kPa");
+  if (H[0] == 0 && H[1] == 0 && H[2] == 0) return;
+  const double f = E[0] + K, s = E[1] + K, n = E[2] + K;
+  const double fs = H[0] + K, sn = H[1] + K, nf = H[2] + K;
+  const double determinant = f * (s * n - sn * sn) - fs * (fs * n - sn * nf) + nf * (fs * sn - s * nf);
+  need(c, f > 0 && f * s > fs * fs && determinant > 0, keys[0], H[0], "kPa",
+       "with the other couplings some stretch costs no energy; give smaller couplings, or larger axial "
+       "moduli");
+}
+
 static void check_springs(checker *c, const vsc_material_def *material)
 {
   static const char *const axial[] = {"axial.f", "axial.s", "axial.n"};
@@ -148,10 +170,34 @@ static void check_springs(checker *c, const vsc_material_def *material)
     need_not_negative(c, angular[a], material->angular[a], "kPa");
     need_not_negative(c, damping[a], material->damping[a], "kPa ms");
   }
+  check_coupling(c, material);
+  check_more_axes(c, material);
+}
+
+static void check_tissue(checker *c, const vsc_material_def *material)
+{
+  vsc_law_constant constants[VSC_MOST_CONSTANTS];
+  const size_t count = vsc_law_constants(material, constants);
+  for (size_t k = 0; k < count; k++) {
+    const vsc_law_constant *it = &constants[k];
+    if (it->positive)
+      need_positive(c, it->key, it->value, it->unit, "give a value above zero");
+    else
+      need_not_negative(c, it->key, it->value, it->unit);
+    need(c, it->value <= it->most, it->key, it->value, it->unit, "give a value up to 1/3");
+  }
+}
+
+static void check_strain_law(checker *c, const vsc_material_def *material)
+{
+  if (material->law == VSC_LAW_SPRINGS)
+    check_springs(c, material);
+  else
+    check_tissue(c, material);
+  need_not_negative(c, "viscosity", material->viscosity, "kPa ms");
   need_positive(c, "volume_modulus", material->volume_modulus, "kPa",
                 "give a modulus above zero, say 10 to 100 times the axial moduli");
   need_not_negative(c, "stabilization", material->stabilization, "kPa");
-  check_more_axes(c, material);
 }
 
 static void check_paper(checker *c, const vsc_paper_def *paper)
@@ -173,7 +219,7 @@ static void check_material(checker *c, size_t item, const vsc_material_def *mate
 {
   enter(c, "materials", item, "");
   need_positive(c, "density", material->density, "mg/mm3", "give a density above zero");
-  if (material->law == VSC_LAW_SPRINGS) check_springs(c, material);
+  if (vsc_law_is_of_strain(material->law)) check_strain_law(c, material);
   if (material->law == VSC_LAW_PAPER) check_paper(c, &material->paper);
   if (material->law == VSC_LAW_CLASSICAL) {
     need_positive(c, "classical.stiffness", material->classical.stiffness, "mN/mm",

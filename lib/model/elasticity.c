@@ -65,6 +65,10 @@ vsc_status vsc_stiffness_of(const vsc_material_def *material, vsc_volume_kind vo
     vsc_stiffness_add(C, a < 3 ? material->axial[a] : material->axes[a - 3].modulus, row);
   }
   for (int a = 0; a < 3; a++) add_pair(material, C, a, (a + 1) % 3, material->angular[a]);
+  for (int a = 0; a < 3; a++) {
+    C[6 * a + (a + 1) % 3] += material->coupling[a];
+    C[6 * ((a + 1) % 3) + a] += material->coupling[a];
+  }
   for (size_t p = 0; p < material->pair_count; p++)
     add_pair(material, C, material->pairs[p].axes[0], material->pairs[p].axes[1],
              material->pairs[p].modulus);

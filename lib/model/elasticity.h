@@ -9,6 +9,7 @@
 //   axial, along a unit vector d:    r . e = d . e d
 //   angular, between d and e:        r . e = 2 d . e e' - c0 (d . e d + e' . e e'), c0 = d . e'
 //   volume, K = U''(1):              r . e = e_ff + e_ss + e_nn
+// and a coupling H_ab of two of the frame's axes adds H_ab to C_ab and C_ba.
 // For the three axes alone that is C_ab = E_a delta_ab + K, C_44 = G_sn, C_55 = G_nf, C_66 = G_fs,
 // and S_ab = delta_ab / E_a - K / (1 + K s) / (E_a E_b), s = 1/E_f + 1/E_s + 1/E_n.
 #ifndef VSC_MODEL_ELASTICITY_H

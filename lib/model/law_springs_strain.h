@@ -5,6 +5,7 @@
 //
 //   psi = E (sqrt q - r)^2 / 2,                S = E (1 - r/n) q',        D = E r/n^3 q' q'^T
 //   psi = G (c - c0)^2 / 2, c = y/(n_i n_j),   c_k = y_k/(n_i n_j) - c (q_i,k/q_i + q_j,k/q_j)/2
+//   psi = H (n_a - 1) (n_b - 1)                between two of the frame's axes, n_a,k = q_a,k/(2 n_a)
 //
 // with q' = dq/de/2, y = u_i . u_j of the unnormalised axes.
 #ifndef VSC_MODEL_LAW_SPRINGS_STRAIN_H
@@ -81,6 +82,27 @@ VSC_INLINE void vsc_add_angular(const double i[3], const double j[3], vsc_wide m
     }
 }
 
+// Adds the coupling H of the frame's axes a and b = a + 1.
+VSC_INLINE void vsc_add_coupling(int a, vsc_wide modulus, const vsc_wide e[6], bool only_energy,
+                                 bool tangent, vsc_law_answer *answer)
+{
+  const int axis[2] = {a, (a + 1) % 3};
+  const vsc_wide shortest = vsc_splat(VSC_SHORTEST_AXIS * VSC_SHORTEST_AXIS);
+  vsc_wide n[2];
+  for (int i = 0; i < 2; i++) {
+    const vsc_wide q = 1 + 2 * e[axis[i]];
+    n[i] = vsc_wide_sqrt(vsc_select(q > shortest, q, shortest));
+  }
+  answer->energy += modulus * (n[0] - 1) * (n[1] - 1);
+  if (only_energy) return;
+  for (int i = 0; i < 2; i++) answer->S[axis[i]] += modulus * (n[1 - i] - 1) / n[i];
+  if (!tangent) return;
+  for (int i = 0; i < 2; i++) {
+    answer->D[axis[i]][axis[i]] -= modulus * (n[1 - i] - 1) / (n[i] * n[i] * n[i]);
+    answer->D[axis[i]][axis[1 - i]] += modulus / (n[0] * n[1]);
+  }
+}
+
 VSC_INLINE void vsc_law_springs_strain(const vsc_material *material, const vsc_mixture *moduli,
                                        const vsc_axis *axes, const vsc_pair *pairs,
                                        vsc_wide activation, const vsc_wide e[6], bool only_energy,
@@ -97,6 +119,7 @@ VSC_INLINE void vsc_law_springs_strain(const vsc_material *material, const vsc_m
     vsc_add_axial(own[a], a == 0 ? fibre : moduli->axial[a], a == 0 ? rest : vsc_splat(1), e,
                   only_energy, tangent, answer);
     vsc_add_angular(own[a], own[(a + 1) % 3], moduli->angular[a], 0, e, only_energy, tangent, answer);
+    vsc_add_coupling(a, moduli->coupling[a], e, only_energy, tangent, answer);
   }
   for (size_t d = 0; d < material->axis_count; d++)
     vsc_add_axial(axes[d].direction, moduli->share * axes[d].modulus, vsc_splat(1), e, only_energy,

@@ -31,6 +31,34 @@ VSC_INLINE vsc_wide vsc_volume_curvature(vsc_wide K, vsc_wide J)
   return 0.5 * K * (1 + 1.0 / (kept * kept));
 }
 
+// -m ln J and its derivatives by J, m the rest shear of a material (kPa): what keeps a law that is a
+// function of the full deformation free of stress at rest. Below J0 the second-order Taylor polynomial
+// of -ln J, as in U.
+
+// -m/J, kPa.
+VSC_INLINE vsc_wide vsc_rest_stress(vsc_wide m, vsc_wide J)
+{
+  const vsc_wide J0 = vsc_splat(VSC_VOLUME_J0);
+  const vsc_wide kept = vsc_select(J > J0, J, J0);
+  return -m * (1.0 / kept - (J - kept) / (VSC_VOLUME_J0 * VSC_VOLUME_J0));
+}
+
+// m/J^2, kPa.
+VSC_INLINE vsc_wide vsc_rest_curvature(vsc_wide m, vsc_wide J)
+{
+  const vsc_wide J0 = vsc_splat(VSC_VOLUME_J0);
+  const vsc_wide kept = vsc_select(J > J0, J, J0);
+  return m / (kept * kept);
+}
+
+// -m ln J, kPa = uJ/mm^3.
+static inline double vsc_rest_energy(double m, double J)
+{
+  const double kept = J > VSC_VOLUME_J0 ? J : VSC_VOLUME_J0;
+  const double below = (J - kept) / VSC_VOLUME_J0;
+  return m * (0.5 * below * below - below - log(kept));
+}
+
 // U(J), kPa = uJ/mm^3.
 static inline double vsc_volume_energy(double K, double J)
 {

@@ -23,6 +23,11 @@ static vsc_status find_inclusions(const vsc_mesh *mesh, const vsc_definition *de
   if (own->inclusion_count > MOST)
     return vsc_fail(error, VSC_INPUT, "materials[%zu].inclusions: %zu of them; %d are the most", m,
                     own->inclusion_count, MOST);
+  if (own->inclusion_count > 0 && own->law != VSC_LAW_SPRINGS)
+    return vsc_fail(error, VSC_INPUT,
+                    "materials[%zu].inclusions: only springs are mixed by volume; use law: springs, or "
+                    "give the inclusions regions of their own",
+                    m);
   for (size_t k = 0; k < own->inclusion_count; k++) {
     char key[VSC_NAME];
     size_t other = 0;
@@ -84,8 +89,10 @@ static void add_moduli(const vsc_material *material, double part, int lane, vsc_
   for (int a = 0; a < 3; a++) {
     mixture->axial[a][lane] += part * material->axial[a];
     mixture->angular[a][lane] += part * material->angular[a];
+    mixture->coupling[a][lane] += part * material->coupling[a];
     mixture->damping[a][lane] += part * material->damping[a];
   }
+  mixture->viscosity[lane] += part * material->viscosity;
   mixture->volume_modulus[lane] += part * material->volume_modulus;
   mixture->stabilization[lane] += part * material->stabilization;
   mixture->element_modulus[lane] += part * material->element_modulus;

@@ -84,7 +84,8 @@ typedef struct vsc_hex_axes {
 
 // Moduli of four elements: their material's, or what inclusions make of them.
 typedef struct vsc_mixture {
-  vsc_wide axial[3], angular[3], damping[3];
+  vsc_wide axial[3], angular[3], coupling[3], damping[3];
+  vsc_wide viscosity;
   vsc_wide volume_modulus, stabilization, element_modulus;
   vsc_wide share;  // of the element's own material: what its further axes and its activity are
                    // multiplied by
@@ -108,7 +109,9 @@ typedef struct vsc_material {
   double density;          // mg/mm^3
   double axial[3];         // E_f, E_s, E_n, kPa
   double angular[3];       // G_fs, G_sn, G_nf, kPa
+  double coupling[3];      // H_fs, H_sn, H_nf, kPa
   double damping[3];       // eta_f, eta_s, eta_n, kPa ms
+  double viscosity;        // eta of S = eta dE/dt, kPa ms
   bool damped;             // whether anything in it resists velocity, whatever its law
   double volume_modulus;   // K, kPa
   double stabilization;    // Ks, kPa: of each frame's own U(J) beside the shared volume of its nodes
@@ -119,13 +122,23 @@ typedef struct vsc_material {
   double active_stiffness;  // kPa
   double rest_stretch;
   double tension;   // kPa
+  double length_factor;     // beta
+  double tension_parts[2];  // k_s, k_n
   double delay;     // ms
   vsc_curve curve;  // owned; only when active
   size_t element_count;
   double volume;  // mm^3
   vsc_law law;
+  bool general;             // needs the kernel of any law: what the springs' own kernels lack
+  bool isochoric;
+  vsc_fibre_switch compression;  // law HOLZAPFEL_OGDEN
+  double rest_shear;        // m of -m ln J, kPa: of each frame's own volume, beside its U(J)
   vsc_paper_def paper;
   vsc_classical_def classical;
+  double shear;             // law NEO_HOOKEAN, kPa
+  vsc_fung_def fung;        // laws FUNG and GUCCIONE
+  vsc_holzapfel_ogden_def holzapfel_ogden;
+  vsc_invariants_def invariants;  // laws MOONEY_RIVLIN and VERONDA_WESTMANN
   size_t first_axis, axis_count;  // in the model's axes
   size_t first_pair, pair_count;  // in the model's pairs
 } vsc_material;
@@ -218,6 +231,7 @@ typedef struct vsc_kept_volumes {
 typedef struct vsc_terms {
   bool damping;
   bool paper;  // some forces are no gradient of an energy
+  bool general;  // some springs have couplings or viscosity, which inclusions may carry elsewhere
   vsc_active_kind active;  // NONE when no element is ever active; kinds may not be mixed
   bool nodal_volume;
   bool gravity;
@@ -377,8 +391,10 @@ VSC_INLINE vsc_mixture vsc_moduli_or(const vsc_material *material, const vsc_mix
   for (int a = 0; a < 3; a++) {
     m.axial[a] = vsc_splat(material->axial[a]);
     m.angular[a] = vsc_splat(material->angular[a]);
+    m.coupling[a] = vsc_splat(material->coupling[a]);
     m.damping[a] = vsc_splat(material->damping[a]);
   }
+  m.viscosity = vsc_splat(material->viscosity);
   m.volume_modulus = vsc_splat(material->volume_modulus);
   m.stabilization = vsc_splat(material->stabilization);
   m.element_modulus = vsc_splat(material->element_modulus);
@@ -412,7 +428,7 @@ static inline bool vsc_patch_is_solid(const vsc_patch *patch)
 static inline bool vsc_patch_shares_volume(const vsc_model *model, const vsc_patch *patch)
 {
   return model->terms.nodal_volume && patch->family == VSC_TETS &&
-         model->materials[patch->material].law == VSC_LAW_SPRINGS;
+         vsc_law_is_of_strain(model->materials[patch->material].law);
 }
 
 // The model's number of node `local` of a patch.

@@ -12,6 +12,8 @@
 #include "mech/tangent.h"
 #include "mesh/quality.h"
 #include "mesh/surface.h"
+#include "model/law_constants.h"
+#include "model/small_strain.h"
 #include "solve/explicit.h"
 
 static const char *const source_names[] = {"none",       "map",        "arrays",   "constant",
@@ -131,7 +133,24 @@ static void say_vessels(const vsc_problem *problem, FILE *out)
   }
 }
 
-static void say_law(const vsc_material *m, FILE *out)
+// The law's constants, and what it is at small strain.
+static void say_tissue(const vsc_model *model, const vsc_material *m, const vsc_material_def *def,
+                       FILE *out)
+{
+  vsc_law_constant constants[VSC_MOST_CONSTANTS];
+  const size_t count = vsc_law_constants(def, constants);
+  const int law = (int)strcspn(constants[0].key, ".");
+  fprintf(out, "law %.*s%s:", law, constants[0].key, m->isochoric ? ", isochoric" : "");
+  for (size_t k = 0; k < count; k++)
+    fprintf(out, "%s %s %g%s%s", k > 0 ? "," : "", constants[k].key + law + 1, constants[k].value,
+            constants[k].unit[0] ? " " : "", constants[k].unit);
+  fprintf(out,
+          "; shear modulus at rest up to %.4g kPa; K %g; own K of a frame %g kPa; viscosity %g kPa ms\n",
+          vsc_material_shear(model, m), m->volume_modulus, m->element_modulus, m->viscosity);
+}
+
+static void say_law(const vsc_model *model, const vsc_material *m, const vsc_material_def *def,
+                    FILE *out)
 {
   const vsc_paper_def *p = &m->paper;
   if (m->law == VSC_LAW_CLASSICAL)
@@ -143,18 +162,24 @@ static void say_law(const vsc_material *m, FILE *out)
             "k_d %g, %g, %g mN ms/mm\n",
             p->axial[0], p->axial[1], p->axial[2], p->angular[0], p->angular[1], p->angular[2],
             p->volume, p->damping[0], p->damping[1], p->damping[2]);
+  else if (m->law != VSC_LAW_SPRINGS)
+    say_tissue(model, m, def, out);
   else
     fprintf(out,
             "E_f,s,n %g, %g, %g; G_fs,sn,nf %g, %g, %g; K %g; own K of a frame %g kPa; damping %g, "
             "%g, %g kPa ms\n",
             m->axial[0], m->axial[1], m->axial[2], m->angular[0], m->angular[1], m->angular[2],
             m->volume_modulus, m->element_modulus, m->damping[0], m->damping[1], m->damping[2]);
+  if (m->law == VSC_LAW_SPRINGS && m->general)
+    fprintf(out, "also       %s: H_fs,sn,nf %g, %g, %g kPa; viscosity %g kPa ms\n", m->name,
+            m->coupling[0], m->coupling[1], m->coupling[2], m->viscosity);
 }
 
-static void say_material(const vsc_model *model, const vsc_material *m, FILE *out)
+static void say_material(const vsc_model *model, const vsc_material *m, const vsc_material_def *def,
+                         FILE *out)
 {
   fprintf(out, "material   %s: %zu elements, %.4g ml; ", m->name, m->element_count, 1e-3 * m->volume);
-  say_law(m, out);
+  say_law(model, m, def, out);
   for (size_t d = 0; d < m->axis_count; d++) {
     const vsc_axis *axis = &model->axes[m->first_axis + d];
     fprintf(out, "axis       %s: %zu along (%.3g, %.3g, %.3g) in f, s, n: %g kPa\n", m->name, d + 3,
@@ -163,6 +188,9 @@ static void say_material(const vsc_model *model, const vsc_material *m, FILE *ou
   if (m->active == VSC_ACTIVE_TENSION)
     fprintf(out, "active     %s: tension up to %g kPa, delay %g ms, period %g ms\n", m->name,
             m->tension * vsc_curve_peak(&m->curve), m->delay, m->curve.period);
+  if (m->length_factor != 0 || m->tension_parts[0] > 0 || m->tension_parts[1] > 0)
+    fprintf(out, "active     %s: length factor %g; %g and %g of the tension along s and n\n", m->name,
+            m->length_factor, m->tension_parts[0], m->tension_parts[1]);
   if (m->active == VSC_ACTIVE_SPRING)
     fprintf(out,
             "active     %s: fibre %s %g to %g %s, rest stretch 1 to %g, delay %g ms, period %g ms\n",
@@ -379,7 +407,8 @@ vsc_status vsc_check(const vsc_problem *problem, FILE *stream, int *warnings, vs
   say_supports(problem, stream);
   if (problem->mesh->element_count > 0) say_fibers(problem, stream);
   say_vessels(problem, stream);
-  for (size_t m = 0; m < model->material_count; m++) say_material(model, &model->materials[m], stream);
+  for (size_t m = 0; m < model->material_count; m++)
+    say_material(model, &model->materials[m], &problem->scene->definition.materials[m], stream);
   say_membranes(model, stream);
   say_terms(model, stream);
   status = model->solve.kind == VSC_SOLVE_EXPLICIT ? say_stepping(problem, stream, error)

@@ -115,6 +115,7 @@ static vsc_status observe(vsc_job *job, vsc_error *error)
 {
   const vsc_status status = vsc_watch_observe(job->problem, job->state, job->watch, error);
   job->most_inverted = fmax(job->most_inverted, job->watch->totals.inverted);
+  job->most_continued = fmax(job->most_continued, job->watch->totals.continued);
   if (status == VSC_OK) vsc_job_keep_good(job);
   return status;
 }

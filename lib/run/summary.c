@@ -80,6 +80,7 @@ static void write_body(const vsc_job *job, const vsc_run_result *result, const c
   write_number(file, "step_estimates", job->state->limit.refreshes, ",");
   write_newton(job, file);
   write_number(file, "most_inverted_elements", job->most_inverted, ",");
+  write_number(file, "most_frames_beyond_exponent", job->most_continued, ",");
   write_number(file, "frames", (double)result->frames, ",");
   write_number(file, "load_seconds", problem->load_seconds, ",");
   write_number(file, "wall_seconds", result->wall_seconds, ",");

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/vec3.h"
+#include "model/small_strain.h"
 #include "run/check.h"
 
 // Where warnings go, and how many there were.
@@ -38,10 +39,12 @@ static void warn_paper(writer *w, const vsc_material *material)
        material->name);
 }
 
-static void warn_springs(writer *w, const vsc_model *model, const vsc_material *material)
+static void warn_volume(writer *w, const vsc_model *model, const vsc_material *material)
 {
-  const double stiff = largest(material->axial),
-               shear = fmax(largest(material->angular), stiff / 2);
+  const double stiff = largest(material->axial);
+  const double shear = material->law == VSC_LAW_SPRINGS
+                           ? fmax(largest(material->angular), stiff / 2)
+                           : vsc_material_shear(model, material);
   const double K = material->volume_modulus;
   if (K > 0 && K < stiff)
     warn(w,
@@ -70,7 +73,7 @@ static void warn_material(writer *w, const vsc_problem *problem, size_t m)
   if (material->element_count == 0 && takes_elements)
     warn(w, "material %s: no element has its regions", material->name);
   if (!takes_elements) return;
-  if (material->law == VSC_LAW_SPRINGS) warn_springs(w, problem->model, material);
+  if (vsc_law_is_of_strain(material->law)) warn_volume(w, problem->model, material);
   if (material->law == VSC_LAW_PAPER) warn_paper(w, material);
 }
 

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "model/small_strain.h"
 
 #define MJ 1e-3  // mJ per uJ
 #define ML 1e-3  // ml per mm^3
@@ -197,7 +198,9 @@ static double least_energy(const vsc_model *model)
   for (size_t m = 0; m < model->material_count; m++) {
     const vsc_material *material = &model->materials[m];
     double stiff = fmax(material->axial[0], fmax(material->axial[1], material->axial[2]));
-    if (material->law != VSC_LAW_SPRINGS)  // of an element's size
+    if (vsc_law_is_of_strain(material->law) && material->law != VSC_LAW_SPRINGS)
+      stiff = 2 * vsc_material_shear(model, material);
+    if (!vsc_law_is_of_strain(material->law))  // of an element's size
       stiff = fmax(material->classical.stiffness, material->paper.axial[0]) / model->element_size;
     energy += 0.5 * stiff * material->volume * 0.03 * 0.03;
   }

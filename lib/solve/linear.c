@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/mem.h"
+#include "model/small_strain.h"
 
 // With a factor of a former matrix this many iterations more than with a fresh one cost more than a
 // factorisation.
@@ -53,19 +54,13 @@ void vsc_linear_free(vsc_linear *linear)
   vsc_free(linear);
 }
 
-// TODO-MERGE
-static double vsc_material_shear(const vsc_material *m)
-{
-  return fmax(m->angular[0], fmax(m->angular[1], m->angular[2]));
-}
-
 // The largest ratio of volume to shear stiffness among the materials.
 static double stiffest_ratio(const vsc_model *model)
 {
   double most = 0;
   for (size_t m = 0; m < model->material_count; m++) {
     const vsc_material *material = &model->materials[m];
-    const double shear = vsc_material_shear(material);
+    const double shear = vsc_material_shear(model, material);
     if (shear > 0) most = fmax(most, material->volume_modulus / shear);
   }
   return most;

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The constants of a tissue law by name: for what checks and prints them.
+#ifndef VSC_MODEL_LAW_CONSTANTS_H
+#define VSC_MODEL_LAW_CONSTANTS_H
+
+#include "model/definition.h"
+
+enum { VSC_MOST_CONSTANTS = 12 };
+
+typedef struct vsc_law_constant {
+  const char *key;   // as the scene writes it: "guccione.bf"
+  const char *unit;  // "kPa", or "" for a number
+  double value;
+  bool positive;     // above zero, else zero or more
+  double most;       // INFINITY where any is fine
+} vsc_law_constant;
+
+// Fills `list` and returns how many constants the law has; 0 for those that are no tissue laws.
+size_t vsc_law_constants(const vsc_material_def *material,
+                         vsc_law_constant list[VSC_MOST_CONSTANTS]);
+
+#endif
