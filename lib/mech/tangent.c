@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "mech/force.h"
 #include "mech/kernel.h"
+#include "mech/loads.h"
 #include "mech/mass_matrix.h"
 #include "model/law_volume.h"
 
@@ -347,6 +348,12 @@ static void assemble_groups(const assembly *a)
   for_sharing_tets(model, tangent, a->x, add_tet_to_groups);
 }
 
+// The nodes of a face belong to one element, so the matrix has their blocks.
+static void add_load(void *matrix, uint32_t i, uint32_t j, const double K[9])
+{
+  vsc_block_matrix_add(matrix, i, j, 1, K);
+}
+
 void vsc_tangent_assemble(const vsc_model *model, vsc_tangent *tangent, const double *x,
                           const double *w, double time, double stiffness_factor,
                           double damping_factor, vsc_scratch *scratch)
@@ -358,6 +365,8 @@ void vsc_tangent_assemble(const vsc_model *model, vsc_tangent *tangent, const do
     a.patches = tangent->colored + tangent->color_start[c];
     vsc_parallel_for(tangent->color_start[c + 1] - tangent->color_start[c], assemble_patch, &a);
   }
+  vsc_loads_tangent(model, x, time, scratch->load, stiffness_factor, damping_factor, add_load,
+                    &tangent->matrix);
   if (model->terms.nodal_volume) assemble_groups(&a);
 }
 
