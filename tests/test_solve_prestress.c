@@ -70,6 +70,7 @@ static void a_stiff_chain_converges_at_its_rate(void **state)
   const vsc_prestress_row *last = &c.row[c.rows - 1];
   assert_true(last->largest <= 1e-9 && last->mean <= last->largest && last->relaxation == 1);
   assert_close(c.row[0].largest, (0.4 + 0.3 + 0.2 + 0.1) * sqrt(1 + 2.25 + 4), 1e-14, 0);
+  assert_close(c.row[1].largest, (0.16 + 0.09 + 0.04 + 0.01) * sqrt(1 + 2.25 + 4), 1e-14, 0);
   for (int k = 0; k < c.rows; k++) assert_int_equal(c.row[k].iteration, k);
   // sums of the errors of the springs: each shrinks by 0.4, the last node's by 0.4 at most
   for (int k = 1; k < c.rows; k++) assert_true(c.row[k].largest <= 0.4 * c.row[k - 1].largest * 1.0001);
