@@ -123,6 +123,24 @@ static void tangents_are_derivatives_when_active(void **state)
   }
 }
 
+// A pressure all round and springs and dashpots on a surface.
+static void tangents_have_the_loads_in_them(void **state)
+{
+  (void)state;
+  random_body body;
+  vsc_mesh *mesh = random_block(3, 41);
+  vsc_robin_def robin = {.surface = "boundary", .stiffness = 30, .damping = 20, .normal = true};
+  body_define(&body, mesh, random_axes(mesh->element_count, 42), VSC_ACTIVE_TENSION,
+              VSC_VOLUME_NODAL);
+  body.pressure.peak = 50;
+  body.definition.robin_count = 1;
+  body.definition.robins = &robin;
+  body_build(&body);
+  check_by_positions(&body);
+  check_by_velocities(&body);
+  body_close(&body);
+}
+
 static void tangents_have_the_same_bits_on_any_number_of_threads(void **state)
 {
   (void)state;
@@ -196,6 +214,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(tangents_are_derivatives_for_every_kind),
       cmocka_unit_test(tangents_are_derivatives_when_active),
+      cmocka_unit_test(tangents_have_the_loads_in_them),
       cmocka_unit_test(tangents_have_the_same_bits_on_any_number_of_threads),
       cmocka_unit_test(block_matrices_multiply),
   };

@@ -98,11 +98,11 @@ static double distance(const double *a, const double *b)
 }
 
 // Half the step, a quarter of the error, in positions and in the energy balance; the curve begins with a
-// kick. Steps are multiples of the curve's spacing, 1/64 ms.
+// kick, and the end is still moving. Steps are multiples of the curve's spacing, 1/64 ms.
 static void pulling_converges_with_order_two(void **state)
 {
   (void)state;
-  const vsc_curve_def curve = half_sine(20);
+  const vsc_curve_def curve = half_sine(25);
   double jump[3], *x[3];
   for (int k = 0; k < 3; k++) x[k] = pull(&curve, 1.0 / (16 << k), 0, &jump[k]);
   const double coarse = distance(x[0], x[1]), fine = distance(x[1], x[2]);

@@ -348,7 +348,8 @@ static void assemble_groups(const assembly *a)
   for_sharing_tets(model, tangent, a->x, add_tet_to_groups);
 }
 
-static void take_block(void *matrix, uint32_t i, uint32_t j, const double K[9])
+// The nodes of a face belong to one element, so the matrix has their blocks.
+static void add_load(void *matrix, uint32_t i, uint32_t j, const double K[9])
 {
   vsc_block_matrix_add(matrix, i, j, 1, K);
 }
@@ -364,9 +365,9 @@ void vsc_tangent_assemble(const vsc_model *model, vsc_tangent *tangent, const do
     a.patches = tangent->colored + tangent->color_start[c];
     vsc_parallel_for(tangent->color_start[c + 1] - tangent->color_start[c], assemble_patch, &a);
   }
-  if (model->terms.nodal_volume) assemble_groups(&a);
-  vsc_loads_tangent(model, x, time, scratch->load, stiffness_factor, damping_factor, take_block,
+  vsc_loads_tangent(model, x, time, scratch->load, stiffness_factor, damping_factor, add_load,
                     &tangent->matrix);
+  if (model->terms.nodal_volume) assemble_groups(&a);
 }
 
 // A part of the groups' stiffness put on the tet itself: 0.3 mean_n (U''_n) / V_e grad v_e grad v_e^T.
