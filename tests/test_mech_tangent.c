@@ -16,7 +16,7 @@ static void tangent_product(random_body *body, const double *x, const double *w,
   vsc_error error;
   const size_t count = 4 * body->model->node_count;
   if (vsc_tangent_create(body->model, &tangent, &error) != VSC_OK) fail_msg("%s", error.text);
-  vsc_tangent_assemble(body->model, tangent, x, w, TIME, a, b, &body->state->scratch);
+  vsc_tangent_assemble(body->model, tangent, x, w, NULL, TIME, a, b, &body->state->scratch);
   memset(y, 0, count * sizeof *y);
   vsc_tangent_times(tangent, body->model->inverse_mass, d, y);
   vsc_tangent_free(tangent);

@@ -244,7 +244,7 @@ static void linear_systems_are_solved_to_the_tolerance(void **state)
       bool indefinite;
       for (size_t i = 0; i < count; i++)
         if (open[i] != 0) body.state->x[i] += 0.01 * round * any_number(&seed);
-      vsc_tangent_assemble(body.model, tangent, body.state->x, NULL, 0, 1, 0, &body.state->scratch);
+      vsc_tangent_assemble(body.model, tangent, body.state->x, NULL, NULL, 0, 1, 0, &body.state->scratch);
       assert_int_equal(vsc_linear_solve(linear, tangent, open, body.state->x, b, 1e-9, d, &indefinite,
                                         &error),
                        VSC_OK);

@@ -232,13 +232,16 @@ void vsc_force(const vsc_model *model, const double *x, const double *w, double 
 }
 
 vsc_patch_work vsc_patch_prepare(const vsc_model *model, const vsc_patch *patch, const double *x,
-                                 const double *w, double time, vsc_scratch *scratch, int thread)
+                                 const double *w, const double *before, double time,
+                                 vsc_scratch *scratch, int thread)
 {
   const evaluation e = {model, x, w, time, scratch, NULL};
   const local_arrays local = local_of(&e, thread);
   vsc_kernel_choice choice;
   vsc_patch_work work = prepare(&e, patch, &local, &choice);
   if (!choice.damping) work.w = NULL;
+  if (before != NULL) gather(model, patch, before, local.f);
+  work.before = before != NULL ? local.f : NULL;
   return work;
 }
 

@@ -26,6 +26,7 @@ typedef struct vsc_patch_work {
   size_t activation_stride;
   bool shares_volume;  // whether the pressures of nodes count
   double stiffness_factor, damping_factor;  // of -df/dx and of -df/dw, what goes into tangents
+  const double *before;  // positions of the iterate before, which foretells stresses; or NULL
   double *f;       // forces, mN: added to
   double *volume;  // quarter volumes, mm^3: added to, by the volume pass
 } vsc_patch_work;

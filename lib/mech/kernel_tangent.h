@@ -43,14 +43,42 @@ static __attribute__((noinline)) void law_tangent(const vsc_law_input *in, const
   vsc_law_evaluate(in, e, VSC_LAW_TANGENT, answer);
 }
 
+// S that the iterate before foretold: S + D de with de the linear strain of the step from `former` to g.
+VSC_INLINE void foretell_stress(const vsc_law_input *in, const vsc_wide3 former[3],
+                                const vsc_wide3 g[3], vsc_wide S[6])
+{
+  vsc_wide e[6], step[6];
+  vsc_wide3 moved[3];
+  vsc_law_answer before;
+  for (int a = 0; a < 3; a++) moved[a] = vsc_wide_minus(g[a], former[a]);
+  vsc_strain_of(former, e);
+  vsc_strain_rate(former, moved, step);
+  law_tangent(in, e, &before);
+  for (int k = 0; k < 6; k++) {
+    S[k] = before.S[k];
+    for (int l = 0; l < 6; l++) S[k] += before.D[k][l] * step[l];
+  }
+}
+
+// J before the step from `former` to g, and its linear change in it.
+VSC_INLINE vsc_wide foretell_ratio(const vsc_wide3 former[3], const vsc_wide3 g[3], vsc_wide *change)
+{
+  vsc_wide3 cofactor[3];
+  const vsc_wide J = cofactor_of(former, cofactor);
+  *change = vsc_splat(0);
+  for (int a = 0; a < 3; a++) *change += vsc_wide_dot(cofactor[a], vsc_wide_minus(g[a], former[a]));
+  return J;
+}
+
 // S and D of the frame, both as the system weighs them: stiffness_factor for positions,
-// damping_factor for velocities.
+// damping_factor for velocities. With `former` S is what that iterate foretold.
 VSC_INLINE void weigh_answer(const vsc_patch_work *work, const vsc_law_input *in, const vsc_wide3 g[3],
-                             const vsc_wide3 *rate, vsc_law_answer *answer)
+                             const vsc_wide3 *former, const vsc_wide3 *rate, vsc_law_answer *answer)
 {
   vsc_wide e[6];
   vsc_strain_of(g, e);
   law_tangent(in, e, answer);
+  if (former != NULL) foretell_stress(in, former, g, answer->S);
   vsc_wide viscous[6][6], speed[6];
   if (rate != NULL) {
     vsc_law_viscous(in->material, &in->moduli, in->axes, e, viscous);
@@ -154,6 +182,39 @@ VSC_INLINE shared_volume share_volume(const vsc_patch_work *work, const vsc_fram
   return shared;
 }
 
+// The axes of all frames at the iterate before, and the pressure that it foretold for the cell.
+VSC_INLINE vsc_wide foretell_pressure(const vsc_patch_work *work, const vsc_frame *frames,
+                                      const uint16_t (*node)[VSC_WIDTH], int corners, int points,
+                                      vsc_wide modulus, vsc_wide3 (*g)[3], vsc_wide3 (*former)[3])
+{
+  vsc_wide3 x[VSC_MOST_CORNERS], h[VSC_MOST_POINTS][3];
+  vsc_wide volume = vsc_splat(0), change = vsc_splat(0), rest = vsc_splat(0);
+  for (int c = 0; c < corners; c++) x[c] = gather_corner(node[c], work->before);
+  derivatives(work->rule, corners, points, x, h);
+  for (int q = 0; q < points; q++) {
+    vsc_wide step;
+    solid_axes(&frames[q], h[q], former[q]);
+    volume += frames[q].V * foretell_ratio(former[q], g[q], &step);
+    change += frames[q].V * step;
+    rest += frames[q].V;
+  }
+  const vsc_wide_mask full = rest > 0;
+  const vsc_wide whole = vsc_select(full, rest, vsc_splat(1));
+  const vsc_wide J = vsc_select(full, volume, vsc_splat(1)) / whole;
+  return vsc_volume_stress(modulus, J) + vsc_volume_curvature(modulus, J) * change / whole;
+}
+
+// What a frame's own volume pushes with: U' and -m/J; foretold where there is an iterate before.
+VSC_INLINE vsc_wide own_pressure(vsc_wide modulus, vsc_wide rest, vsc_wide J, const vsc_wide3 *former,
+                                 const vsc_wide3 g[3])
+{
+  if (former == NULL) return vsc_volume_stress(modulus, J) + vsc_rest_stress(rest, J);
+  vsc_wide change;
+  const vsc_wide before = foretell_ratio(former, g, &change);
+  return vsc_volume_stress(modulus, before) + vsc_rest_stress(rest, before) +
+         (vsc_volume_curvature(modulus, before) + vsc_rest_curvature(rest, before)) * change;
+}
+
 VSC_INLINE void tangent_kernel(const vsc_patch_work *work, size_t k, int corners, int points,
                                vsc_wide *K)
 {
@@ -173,8 +234,13 @@ VSC_INLINE void tangent_kernel(const vsc_patch_work *work, size_t k, int corners
     for (int c = 0; c < corners; c++) x[c] = gather_corner(node[c], work->w);
     derivatives(work->rule, corners, points, x, speed);
   }
-  const shared_volume shared =
-      share_volume(work, frames, node, corners, points, &in.moduli, h, g);
+  shared_volume shared = share_volume(work, frames, node, corners, points, &in.moduli, h, g);
+  vsc_wide3 former[VSC_MOST_POINTS][3];
+  if (work->before != NULL) {
+    const vsc_wide foretold = foretell_pressure(work, frames, node, corners, points,
+                                                in.moduli.volume_modulus, g, former);
+    if (corners != 4) shared.pressure = foretold;
+  }
   // a tet's own volume modulus, or that of each frame beside the shared volume
   const vsc_wide own = corners == 4 ? in.moduli.element_modulus : in.moduli.stabilization;
   for (int i = 0; i < 9 * corners * (corners + 1) / 2; i++) K[i] = vsc_splat(0);
@@ -185,10 +251,10 @@ VSC_INLINE void tangent_kernel(const vsc_patch_work *work, size_t k, int corners
     vsc_wide3 rate[3];
     if (work->w != NULL) solid_axes(&frames[q], speed[q], rate);
     open_frame(&frames[q], work->rule->D[q], corners, g[q], &frame);
-    weigh_answer(work, &in, g[q], work->w != NULL ? rate : NULL, &answer);
+    const vsc_wide3 *before = work->before != NULL ? former[q] : NULL;
+    weigh_answer(work, &in, g[q], before, work->w != NULL ? rate : NULL, &answer);
     const vsc_wide rest = vsc_splat(work->material->rest_shear);
-    const vsc_wide p = shared.pressure + vsc_volume_stress(own, frame.J) +
-                       vsc_rest_stress(rest, frame.J);
+    const vsc_wide p = shared.pressure + own_pressure(own, rest, frame.J, before, g[q]);
     const vsc_wide curvature =
         vsc_volume_curvature(own, frame.J) + vsc_rest_curvature(rest, frame.J);
     add_frame_tangent(&frame, &answer, frames[q].V, work->stiffness_factor * p,

@@ -217,7 +217,7 @@ void vsc_tangent_free(vsc_tangent *tangent)
 typedef struct assembly {
   const vsc_model *model;
   vsc_tangent *tangent;
-  const double *x, *w;
+  const double *x, *w, *before;
   double time, stiffness_factor, damping_factor;
   vsc_scratch *scratch;
   const uint32_t *patches;  // of one colour
@@ -259,7 +259,7 @@ static void assemble_patch(void *context, size_t piece, int thread)
   const size_t p = a->patches[piece];
   const vsc_patch *patch = &a->model->patches[p];
   vsc_patch_work work =
-      vsc_patch_prepare(a->model, patch, a->x, a->w, a->time, a->scratch, thread);
+      vsc_patch_prepare(a->model, patch, a->x, a->w, a->before, a->time, a->scratch, thread);
   work.stiffness_factor = a->stiffness_factor;
   work.damping_factor = a->damping_factor;
   vsc_tangent_kernel *kernel = vsc_cell_tangent(patch->family);
@@ -355,10 +355,10 @@ static void add_load(void *matrix, uint32_t i, uint32_t j, const double K[9])
 }
 
 void vsc_tangent_assemble(const vsc_model *model, vsc_tangent *tangent, const double *x,
-                          const double *w, double time, double stiffness_factor,
+                          const double *w, const double *before, double time, double stiffness_factor,
                           double damping_factor, vsc_scratch *scratch)
 {
-  assembly a = {model, tangent, x, w, time, stiffness_factor, damping_factor, scratch, NULL};
+  assembly a = {model, tangent, x, w, before, time, stiffness_factor, damping_factor, scratch, NULL};
   vsc_block_matrix_clear(&tangent->matrix);
   if (model->terms.nodal_volume) vsc_group_volumes(model, x, scratch);
   for (size_t c = 0; c < tangent->color_count; c++) {

@@ -38,9 +38,12 @@ vsc_status vsc_tangent_create(const vsc_model *model, vsc_tangent **tangent, vsc
 void vsc_tangent_free(vsc_tangent *tangent);  // NULL is fine
 
 // The tangent at positions x, velocities w (NULL: no damping) and `time`, for a = stiffness_factor, b =
-// damping_factor. Supports are not imposed: vsc_block_matrix_hold does that.
+// damping_factor. Supports are not imposed: vsc_block_matrix_hold does that. With `before`, the
+// positions of Newton's iterate before (NULL: none), stresses in the geometric part are those which that
+// iterate foretold, S + D de, not those that the step's overshoot has made: with them a bending body
+// takes steps many times as long, and the end is the same (Magisano, Leonetti & Garcea 2017).
 void vsc_tangent_assemble(const vsc_model *model, vsc_tangent *tangent, const double *x,
-                          const double *w, double time, double stiffness_factor,
+                          const double *w, const double *before, double time, double stiffness_factor,
                           double damping_factor, vsc_scratch *scratch);
 
 // Adds factor (1/ms^2) times the mass matrix to the tangent, and y += factor (any unit) times the mass

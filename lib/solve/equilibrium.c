@@ -25,10 +25,10 @@ static void residual(void *context, const double *x, double *r)
   vsc_force(s->model, x, NULL, s->time, &s->state->scratch, r);
 }
 
-static void assemble(void *context, const double *x, vsc_tangent *tangent)
+static void assemble(void *context, const double *x, const double *before, vsc_tangent *tangent)
 {
   statics *s = context;
-  vsc_tangent_assemble(s->model, tangent, x, NULL, s->time, 1, 0, &s->state->scratch);
+  vsc_tangent_assemble(s->model, tangent, x, NULL, before, s->time, 1, 0, &s->state->scratch);
 }
 
 static void release(void *solver)

@@ -59,7 +59,7 @@ static vsc_status first_acceleration(const vsc_model *model, vsc_state *state, v
   for (size_t i = 0; i < 4 * model->node_count; i++)
     state->a[i] = model->inverse_mass[i] * state->force[i];
   if (model->masses != VSC_MASS_CONSISTENT) return VSC_OK;
-  vsc_tangent_assemble(model, newton->tangent, state->x, NULL, state->time, 0, 0, &state->scratch);
+  vsc_tangent_assemble(model, newton->tangent, state->x, NULL, NULL, state->time, 0, 0, &state->scratch);
   vsc_tangent_add_masses(model, newton->tangent, 1);
   return vsc_linear_solve(newton->linear, newton->tangent, model->inverse_mass, state->x, state->force,
                           1e-12, state->a, &indefinite, error);
@@ -146,14 +146,18 @@ static void residual(void *context, const double *x, double *r)
 }
 
 // (1 - f) (K + V C) + (1 - m) A M
-static void assemble(void *context, const double *x, vsc_tangent *tangent)
+static void assemble(void *context, const double *x, const double *before, vsc_tangent *tangent)
 {
   (void)x;
   const step *p = context;
   const scheme *c = &p->scheme;
   const double part = 1 - c->force_past;
+  double *middle = p->s->middle_a;  // of the iterate before
+  for (size_t i = 0; before != NULL && i < 4 * p->model->node_count; i++)
+    middle[i] = part * before[i] + c->force_past * p->state->x[i];
   vsc_tangent_assemble(p->model, tangent, p->s->middle,
-                       p->model->terms.damping ? p->s->velocity : NULL, p->time, part, part * c->V,
+                       p->model->terms.damping ? p->s->velocity : NULL,
+                       before != NULL ? middle : NULL, p->time, part, part * c->V,
                        &p->state->scratch);
   vsc_tangent_add_masses(p->model, tangent, (1 - c->mass_past) * c->A);
 }

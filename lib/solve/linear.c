@@ -98,6 +98,11 @@ void vsc_linear_forget(vsc_linear *linear)
   linear->plain_left = linear->budget;
 }
 
+bool vsc_linear_is_plain(const vsc_linear *linear)
+{
+  return !linear->factorized && linear->plain_left > 0;
+}
+
 vsc_linear_counts vsc_linear_counted(const vsc_linear *linear)
 {
   return linear->counts;

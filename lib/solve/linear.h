@@ -35,6 +35,9 @@ vsc_status vsc_linear_solve(vsc_linear *linear, vsc_tangent *tangent, const doub
                             const double *x, const double *b, double tolerance, double *d,
                             bool *indefinite, vsc_error *error);
 
+// Whether the next system will be solved with diagonal blocks.
+bool vsc_linear_is_plain(const vsc_linear *linear);
+
 vsc_linear_counts vsc_linear_counted(const vsc_linear *linear);
 
 #endif

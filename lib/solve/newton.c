@@ -9,8 +9,10 @@
 #include "mech/element.h"
 
 enum { MOST_HALVINGS = 4 };
-// A residual that has grown by this factor since the start of a solution does not come back.
-#define DIVERGED 1e4
+// Full steps of a stiffening body overshoot, and come back from far away; not from here.
+#define DIVERGED 1e10
+// Systems with a factor are solved at least this well: what bends forgives little.
+#define FACTORIZED 1e-4
 // Positions are rounded to this part of the body's size, and forces with them.
 #define ROUNDING 4e-16
 #define STILL 1e-14
@@ -27,7 +29,7 @@ vsc_status vsc_newton_create(const vsc_model *model, vsc_newton **newton, vsc_er
   if (status == VSC_OK)
     status = vsc_linear_create(model, made->tangent, model->solve.linear, &made->linear, error);
   if (status == VSC_OK && (!VSC_NEW(made->r, count) || !VSC_NEW(made->d, count) ||
-                           !VSC_NEW(made->trial, count)))
+                           !VSC_NEW(made->trial, count) || !VSC_NEW(made->before, count)))
     status = vsc_fail_memory(error, "Newton's method");
   if (status != VSC_OK) {
     vsc_newton_free(made);
@@ -45,6 +47,7 @@ void vsc_newton_free(vsc_newton *newton)
   vsc_free(newton->r);
   vsc_free(newton->d);
   vsc_free(newton->trial);
+  vsc_free(newton->before);
   vsc_free(newton->rows);
   vsc_free(newton);
 }
@@ -153,14 +156,16 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
 {
   const vsc_model *model = newton->model;
   const double tolerance = model->solve.tolerance;
-  double first = 0, before = 0, forcing = 0.1;
+  double first = 0, before = 0, forcing = 1;
   newton->solutions++;
   newton->indefinite = false;
   for (int k = 0; k <= VSC_MOST_NEWTON; k++) {
     balance->residual(balance->context, x, newton->r);
     const double norm = free_norm(model, newton->r);
-    newton->scale = fmax(newton->scale, whole_norm(model, newton->r));
-    if (k == 0) first = norm;
+    if (k == 0) {
+      first = norm;
+      newton->scale = fmax(newton->scale, whole_norm(model, newton->r));
+    }
     const vsc_linear_counts counts = vsc_linear_counted(newton->linear);
     const double relative = newton->scale > 0 ? norm / newton->scale : 0;
     vsc_newton_row row = {time, load, k, relative, 0, 0};
@@ -174,9 +179,11 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
       break;
     }
     if (k > 0) forcing = 0.9 * (norm / before) * (norm / before);
-    forcing = fmax(fmin(forcing, 0.1), fmax(0.3 * tolerance / relative, 1e-8));
+    forcing = fmax(fmin(forcing, vsc_linear_is_plain(newton->linear) ? 0.1 : FACTORIZED),
+                   fmax(0.3 * tolerance / relative, 1e-8));
     before = norm;
-    balance->assemble(balance->context, x, newton->tangent);
+    balance->assemble(balance->context, x, k > 0 ? newton->before : NULL, newton->tangent);
+    memcpy(newton->before, x, 4 * model->node_count * sizeof *x);
     newton->floor = ROUNDING * newton->size * sqrt((double)model->node_count) *
                     vsc_block_matrix_largest(&newton->tangent->matrix, model->inverse_mass);
     const vsc_status status = vsc_linear_solve(newton->linear, newton->tangent, model->inverse_mass, x,

@@ -14,11 +14,11 @@
 enum { VSC_MOST_NEWTON = 40 };  // iterations of one solution
 
 // What has to vanish. `residual` fills r (node_count x 4, mN) at x; `assemble` the tangent at the x of
-// the last residual.
+// the last residual; `before` is the iterate before, or NULL.
 typedef struct vsc_balance {
   void *context;
   void (*residual)(void *context, const double *x, double *r);
-  void (*assemble)(void *context, const double *x, vsc_tangent *tangent);
+  void (*assemble)(void *context, const double *x, const double *before, vsc_tangent *tangent);
 } vsc_balance;
 
 // One iteration of one solution, for those who want to see how it went.
@@ -35,9 +35,9 @@ typedef struct vsc_newton {
   const vsc_model *model;
   vsc_tangent *tangent;
   vsc_linear *linear;
-  double *r, *d, *trial;  // node_count x 4
+  double *r, *d, *trial, *before;  // node_count x 4
   double size;            // of the body, mm
-  double scale;           // largest |r| so far, mN
+  double scale;           // largest |r| at the start of a solution so far, reactions included, mN
   double floor;           // |r| below which there is rounding only, mN
   size_t row_count, row_room;
   vsc_newton_row *rows;   // since they were last taken; owned
