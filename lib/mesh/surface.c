@@ -257,16 +257,6 @@ static void rim_centre(const vsc_cavity *cavity, size_t rim, const double *posit
   }
 }
 
-// The places of a face's six nodes.
-static void gather_face(const uint32_t corner[3], const uint32_t mid[3], const double *positions,
-                        size_t stride, double x[VSC_FACE_NODES][3])
-{
-  for (int i = 0; i < 3; i++) {
-    memcpy(x[i], positions + stride * corner[i], sizeof x[i]);
-    memcpy(x[3 + i], positions + stride * mid[i], sizeof x[i]);
-  }
-}
-
 // The volume between `origin` and a face of six nodes: int (x - origin) . (t_1 x t_2) / 3, which is of
 // degree 4 and so summed exactly.
 static double curved_volume(const vsc_face_rule *rule, const double origin[3],
@@ -323,7 +313,7 @@ double vsc_cavity_volume(const vsc_cavity *cavity, const double *positions, size
     const uint32_t *node = cavity->triangles + 3 * t;
     if (cavity->mid != NULL) {
       double x[VSC_FACE_NODES][3];
-      gather_face(node, cavity->mid + 3 * t, positions, stride, x);
+      vsc_face_places(node, cavity->mid + 3 * t, positions, stride, x);
       volume -= curved_volume(&rule, origin, x);
       continue;
     }
@@ -363,7 +353,7 @@ double vsc_surface_area(const vsc_surface *surface, const double *positions, siz
     const uint32_t *node = surface->triangles + 3 * t;
     if (surface->mid != NULL) {
       double x[VSC_FACE_NODES][3];
-      gather_face(node, surface->mid + 3 * t, positions, stride, x);
+      vsc_face_places(node, surface->mid + 3 * t, positions, stride, x);
       area += curved_area(&rule, x);
       continue;
     }
