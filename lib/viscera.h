@@ -3,7 +3,7 @@
 // and reads fields back; VTK, HDF5 and YAML stay out of its sight. The README shows it in thirty
 // lines.
 //
-//   vsc_mesh_from_arrays, vsc_vtk_read_mesh          a mesh
+//   vsc_mesh_from_arrays, vsc_vtk_read_mesh, vsc_mesh_raise   a mesh
 //   vsc_axes_create, vsc_axes_complete, vsc_fibers_make   material axes
 //   vsc_default_definition, vsc_default_material     what to simulate
 //   vsc_calibrate, vsc_material_of_springs           springs for wanted moduli

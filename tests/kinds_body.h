@@ -5,10 +5,12 @@
 #define VSC_TESTS_KINDS_BODY_H
 
 #include "hybrid_mesh.h"
+#include "mesh/quadratic.h"
 #include "random_body.h"
 
-// A block of n^3 jittered hexahedra of 1 mm, or of as many bricks in all four kinds, or of tets.
-typedef enum kinds_mesh { ALL_HEXES, ALL_KINDS, ALL_TETS } kinds_mesh;
+// A block of n^3 jittered hexahedra of 1 mm, or of as many bricks in all four linear kinds, or of tets, or
+// of quadratic tets with straight edges.
+typedef enum kinds_mesh { ALL_HEXES, ALL_KINDS, ALL_TETS, ALL_TETS10 } kinds_mesh;
 
 static inline vsc_mesh *hex_block(size_t n, double jitter, uint64_t seed)
 {
@@ -30,7 +32,12 @@ static inline vsc_mesh *hex_block(size_t n, double jitter, uint64_t seed)
 static inline vsc_mesh *mesh_of(kinds_mesh kind, size_t n, uint64_t seed)
 {
   if (kind == ALL_HEXES) return hex_block(n, 0.15, seed);
-  return kind == ALL_KINDS ? hybrid_block(n, 0.15, seed) : random_block(n, seed);
+  if (kind == ALL_KINDS) return hybrid_block(n, 0.15, seed);
+  vsc_mesh *mesh = random_block(n, seed);
+  vsc_error error;
+  if (kind == ALL_TETS10 && vsc_mesh_raise(&mesh, "block", &error) != VSC_OK)
+    fail_msg("%s", error.text);
+  return mesh;
 }
 
 // Springs of all sorts: three axes and two more, pairs with right and other angles.
@@ -80,7 +87,7 @@ static inline vsc_material_def classical_material(void)
 static inline void kinds_open(random_body *body, vsc_mesh *mesh, const vsc_material_def *material,
                               vsc_volume_kind volume, uint64_t seed)
 {
-  *body = (random_body){.mesh = mesh, .axes = random_axes(mesh->element_count, seed)};
+  *body = (random_body){.mesh = mesh, .axes = random_axes_for(mesh, seed)};
   body->materials[0] = *material;
   body->definition = vsc_default_definition();
   body->definition.end_time = 1000;

@@ -90,6 +90,23 @@ static inline void same_files_at(const char *a, const char *b, const char *file,
 // Two files of the folder have the same bytes and are not empty.
 #define assert_same_files(a, b) same_files_at((a), (b), __FILE__, __LINE__)
 
+// The number in a column of the last line of a results folder's signals.csv.
+static inline double last_signal(const char *folder, const char *column)
+{
+  static char text[PROGRAM_TEXT];
+  char name[64];
+  snprintf(name, sizeof name, "%s/signals.csv", folder);
+  assert_true(load_text(name, text, sizeof text) > 0);
+  const char *place = strstr(text, column);
+  assert_non_null(place);
+  int number = 0;
+  for (const char *c = text; c < place; c++) number += *c == ',';
+  text[strlen(text) - 1] = '\0';
+  const char *row = strrchr(text, '\n') + 1;
+  while (number-- > 0) row = strchr(row, ',') + 1;
+  return strtod(row, NULL);
+}
+
 static inline int program_open(void **state)
 {
   (void)state;

@@ -57,16 +57,25 @@ static inline vsc_mesh *random_block(size_t n, uint64_t seed)
   return mesh;
 }
 
-// A random frame in each tet; one tet in ten has no known fibre.
-static inline vsc_axes *random_axes(size_t count, uint64_t seed)
+// Random frames at all points of each element; one element in ten has no known fibre.
+static inline vsc_axes *random_frames(vsc_axes *axes, uint64_t seed)
 {
-  vsc_axes *axes = vsc_axes_create(count);
-  for (size_t t = 0; t < count; t++) {
+  for (size_t e = 0; e < axes->count; e++) {
     if (random_part(&seed) < 0.1) continue;
-    random_rotation(&seed, axes->frames + 9 * t);
-    axes->known[t] = 1;
+    for (int q = 0; q < axes->points; q++) random_rotation(&seed, vsc_axes_frame(axes, e, q));
+    axes->known[e] = 1;
   }
   return axes;
+}
+
+static inline vsc_axes *random_axes(size_t count, uint64_t seed)
+{
+  return random_frames(vsc_axes_create(count), seed);
+}
+
+static inline vsc_axes *random_axes_for(const vsc_mesh *mesh, uint64_t seed)
+{
+  return random_frames(vsc_axes_create_for(mesh), seed);
 }
 
 static inline void define_materials(vsc_material_def materials[2], vsc_active_kind active)

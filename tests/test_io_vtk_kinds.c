@@ -92,7 +92,7 @@ static void a_voxel_is_a_hexahedron(void **state)
 // programs do, their triangles exchanged.
 static const char *write_legacy(const vsc_mesh *mesh, bool swapped)
 {
-  static const int types[VSC_CELLS] = {10, 12, 13, 14};
+  static const int types[] = {10, 12, 13, 14};
   const char *path = scratch("hybrid.vtk");
   FILE *file = fopen(path, "w");
   assert_non_null(file);

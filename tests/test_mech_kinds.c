@@ -22,6 +22,8 @@ static const variant variants[] = {
     {"all kinds, nodes share", ALL_KINDS, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true},
     {"all kinds, elements alone", ALL_KINDS, VSC_LAW_SPRINGS, VSC_VOLUME_ELEMENT, true, true, true},
     {"tets", ALL_TETS, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true},
+    {"quadratic tets", ALL_TETS10, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true},
+    {"quadratic tets alone", ALL_TETS10, VSC_LAW_SPRINGS, VSC_VOLUME_ELEMENT, true, true, true},
     {"paper tets", ALL_TETS, VSC_LAW_PAPER, VSC_VOLUME_NODAL, false, false, false},
     {"paper hexahedra", ALL_HEXES, VSC_LAW_PAPER, VSC_VOLUME_NODAL, false, false, false},
     {"classical tets", ALL_TETS, VSC_LAW_CLASSICAL, VSC_VOLUME_NODAL, true, true, true},
@@ -246,7 +248,8 @@ static void constant_stress_is_in_equilibrium(void **state)
     open_variant(&body, &variants[v], n, 70);
     random_rotation(&seed, one);
     for (size_t e = 0; e < body.mesh->element_count; e++) {
-      memcpy(body.axes->frames + 9 * e, one, sizeof one);
+      for (int q = 0; q < body.axes->points; q++)
+        memcpy(vsc_axes_frame(body.axes, e, q), one, sizeof one);
       body.axes->known[e] = 1;
     }
     vsc_ledger_free(body.ledger);
@@ -273,8 +276,41 @@ static void constant_stress_is_in_equilibrium(void **state)
   }
 }
 
-// The number of singular values below 1e-7 of the largest of the tangent at rest of an element alone
-// (differences of forces over 1e-5 mm: rounding 1e-10, third derivatives 1e-10).
+// The number of singular values below 1e-7 of the largest of the tangent at rest of a body, whose mesh
+// becomes the body's (differences of forces over 1e-5 mm: rounding 1e-10, third derivatives 1e-10).
+static int zero_modes_of(vsc_mesh *mesh, const vsc_material_def *material)
+{
+  const size_t size = 3 * mesh->node_count;
+  random_body body;
+  kinds_open(&body, mesh, material, VSC_VOLUME_ELEMENT, 90);
+  gsl_matrix *K = gsl_matrix_calloc(size, size), *V = gsl_matrix_alloc(size, size);
+  gsl_vector *values = gsl_vector_alloc(size), *room = gsl_vector_alloc(size);
+  const double h = 1e-5;
+  double *force[2] = {numbers(size), numbers(size)}, *x = numbers(size);
+  for (size_t j = 0; j < size; j++) {
+    for (int side = 0; side < 2; side++) {
+      memcpy(x, mesh->nodes, size * sizeof *x);
+      x[j] += side ? -h : h;
+      body_force(&body, x, NULL, 0, force[side]);
+    }
+    for (size_t i = 0; i < size; i++)
+      gsl_matrix_set(K, i, j, -(force[0][i] - force[1][i]) / (2 * h));
+  }
+  gsl_linalg_SV_decomp(K, V, values, room);
+  int zeros = 0;
+  const double most = gsl_vector_max(values);
+  for (size_t i = 0; i < size; i++) zeros += gsl_vector_get(values, i) < 1e-7 * most;
+  gsl_matrix_free(K);
+  gsl_matrix_free(V);
+  gsl_vector_free(values);
+  gsl_vector_free(room);
+  for (int side = 0; side < 2; side++) vsc_free(force[side]);
+  vsc_free(x);
+  body_close(&body);
+  return zeros;
+}
+
+// The same of one element.
 static int zero_modes(vsc_cell kind, const vsc_material_def *material)
 {
   static const double hex[8][3] = {{0, 0, 0}, {1, 0, .1}, {1.1, 1, 0}, {0, 1, 0},
@@ -282,40 +318,17 @@ static int zero_modes(vsc_cell kind, const vsc_material_def *material)
   static const double wedge[6][3] = {{0, 0, 0}, {1, 0, 0}, {.1, 1, 0}, {0, 0, 1}, {1, .1, 1}, {0, 1, 1}};
   static const double pyramid[5][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1.1, 0}, {0, 1, 0}, {.4, .5, 1}};
   static const double tet[4][3] = {{0, 0, 0}, {1, 0, 0}, {.1, 1, 0}, {0, .2, 1}};
-  static const double(*const corners[VSC_CELLS])[3] = {tet, hex, wedge, pyramid};
-  const int count = vsc_cells[kind].corners, size = 3 * count;
+  static const double curved[10][3] = {{0, 0, 0}, {1, 0, 0}, {.1, 1, 0}, {0, .2, 1}, {.5, .1, 0},
+                                       {.5, .5, .1}, {0, .5, 0}, {0, .1, .6}, {.6, 0, .5}, {0, .6, .5}};
+  static const double(*const corners[VSC_CELLS])[3] = {tet, hex, wedge, pyramid, curved};
+  const int count = vsc_cells[kind].corners;
   const uint8_t kinds[1] = {(uint8_t)kind};
   vsc_mesh *mesh = vsc_mesh_create_cells((size_t)count, 1, kinds, 0);
   for (int c = 0; c < count; c++) {
     mesh->corners[c] = (uint32_t)c;
     memcpy(mesh->nodes + 3 * c, corners[kind][c], 3 * sizeof(double));
   }
-  random_body body;
-  kinds_open(&body, mesh, material, VSC_VOLUME_ELEMENT, 90);
-  gsl_matrix *K = gsl_matrix_calloc((size_t)size, (size_t)size);
-  gsl_matrix *V = gsl_matrix_alloc((size_t)size, (size_t)size);
-  gsl_vector *values = gsl_vector_alloc((size_t)size), *room = gsl_vector_alloc((size_t)size);
-  const double h = 1e-5;
-  for (int j = 0; j < size; j++) {
-    double force[2][24], x[24];
-    for (int side = 0; side < 2; side++) {
-      memcpy(x, mesh->nodes, (size_t)size * sizeof *x);
-      x[j] += side ? -h : h;
-      body_force(&body, x, NULL, 0, force[side]);
-    }
-    for (int i = 0; i < size; i++)
-      gsl_matrix_set(K, (size_t)i, (size_t)j, -(force[0][i] - force[1][i]) / (2 * h));
-  }
-  gsl_linalg_SV_decomp(K, V, values, room);
-  int zeros = 0;
-  const double most = gsl_vector_max(values);
-  for (int i = 0; i < size; i++) zeros += gsl_vector_get(values, (size_t)i) < 1e-7 * most;
-  gsl_matrix_free(K);
-  gsl_matrix_free(V);
-  gsl_vector_free(values);
-  gsl_vector_free(room);
-  body_close(&body);
-  return zeros;
+  return zero_modes_of(mesh, material);
 }
 
 // Rigid motions are the only ones without force; the paper's hexahedron has twelve more, as the
@@ -325,6 +338,7 @@ static void only_rigid_motion_is_free(void **state)
   (void)state;
   const vsc_material_def springs = springs_material(NULL, NULL);
   for (int kind = 0; kind < VSC_CELLS; kind++) assert_int_equal(zero_modes((vsc_cell)kind, &springs), 6);
+  assert_int_equal(zero_modes_of(mesh_of(ALL_TETS10, 1, 92), &springs), 6);
   vsc_material_def paper = paper_material();
   assert_int_equal(zero_modes(VSC_HEX, &paper), 10);
   paper.paper.volume = 1e-9;

@@ -5,14 +5,17 @@
 #include "hybrid_mesh.h"
 #include "mesh/surface.h"
 
+enum { MOST = VSC_MOST_CORNERS };
+
 // A random point of the reference element, away from a pyramid's apex.
 static void random_point(vsc_cell kind, uint64_t *seed, double xi[3])
 {
   for (int k = 0; k < 3; k++) xi[k] = random_between(seed, -1, 1);
   if (kind == VSC_PYRAMID) xi[2] = 0.9 * random_part(seed);
-  while (kind == VSC_TET || kind == VSC_WEDGE) {
-    for (int k = 0; k < (kind == VSC_TET ? 3 : 2); k++) xi[k] = random_part(seed);
-    if (xi[0] + xi[1] + (kind == VSC_TET ? xi[2] : 0) <= 1) break;
+  const bool tet = kind == VSC_TET || kind == VSC_TET10;
+  while (tet || kind == VSC_WEDGE) {
+    for (int k = 0; k < (tet ? 3 : 2); k++) xi[k] = random_part(seed);
+    if (xi[0] + xi[1] + (tet ? xi[2] : 0) <= 1) break;
   }
 }
 
@@ -24,10 +27,10 @@ static void shape_functions_are_what_they_should(void **state)
   uint64_t seed = 3;
   for (int kind = 0; kind < VSC_CELLS; kind++)
     for (int round = 0; round < 50; round++) {
-      double xi[3], N[8], D[3][8], ahead[8], behind[8], unused[3][8], sum = 0;
+      double xi[3], N[MOST], D[3][MOST], ahead[MOST], behind[MOST], unused[3][MOST], sum = 0;
       random_point((vsc_cell)kind, &seed, xi);
       vsc_cell_shape((vsc_cell)kind, xi, N, D);
-      for (int i = 0; i < 8; i++) sum += N[i];
+      for (int i = 0; i < MOST; i++) sum += N[i];
       assert_close(sum, 1, 1e-15, 1e-15);
       for (int k = 0; k < 3; k++) {
         double moved[3] = {xi[0], xi[1], xi[2]}, total = 0;
@@ -35,22 +38,25 @@ static void shape_functions_are_what_they_should(void **state)
         vsc_cell_shape((vsc_cell)kind, moved, ahead, unused);
         moved[k] = xi[k] - 1e-6;
         vsc_cell_shape((vsc_cell)kind, moved, behind, unused);
-        for (int i = 0; i < 8; i++) {
+        for (int i = 0; i < MOST; i++) {
           assert_close(D[k][i], (ahead[i] - behind[i]) / 2e-6, 0, 1e-9);
           total += D[k][i];
         }
-        assert_close(total, 0, 0, 1e-15);
+        // quadratic: sums of numbers up to 4
+        assert_close(total, 0, 0, kind == VSC_TET10 ? 4e-15 : 1e-15);
       }
     }
 }
 
 // Corners of the reference elements.
-static const double REFERENCE[VSC_CELLS][8][3] = {
+static const double REFERENCE[VSC_CELLS][MOST][3] = {
     [VSC_TET] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
     [VSC_HEX] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                  {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}},
     [VSC_WEDGE] = {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
-    [VSC_PYRAMID] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}}};
+    [VSC_PYRAMID] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}},
+    [VSC_TET10] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {.5, 0, 0},
+                   {.5, .5, 0}, {0, .5, 0}, {0, 0, .5}, {.5, 0, .5}, {0, .5, .5}}};
 
 // sum_i N_i X_i gives back the place, so that linear functions are met; a pyramid's coordinates
 // shrink towards its apex. Each function is 1 at its own corner and 0 at the others.
@@ -58,7 +64,7 @@ static void linear_functions_are_met(void **state)
 {
   (void)state;
   uint64_t seed = 4;
-  double N[8], D[3][8];
+  double N[MOST], D[3][MOST];
   for (int kind = 0; kind < VSC_CELLS; kind++) {
     for (int round = 0; round < 50; round++) {
       double xi[3], place[3] = {0};
@@ -73,7 +79,7 @@ static void linear_functions_are_met(void **state)
     }
     for (int i = 0; i < vsc_cells[kind].corners; i++) {
       vsc_cell_shape((vsc_cell)kind, REFERENCE[kind][i], N, D);
-      for (int j = 0; j < 8; j++) assert_close(N[j], i == j, 0, 0);
+      for (int j = 0; j < MOST; j++) assert_close(N[j], i == j, 0, 0);
     }
   }
 }
@@ -84,7 +90,8 @@ static void linear_functions_are_met(void **state)
 static void faces_and_edges_fit(void **state)
 {
   (void)state;
-  static const double volumes[VSC_CELLS] = {1. / 6, 8, 1, 4. / 3}, boxes[VSC_CELLS] = {1. / 6, 8, 1, 4};
+  static const double volumes[VSC_CELLS] = {1. / 6, 8, 1, 4. / 3, 1. / 6};
+  static const double boxes[VSC_CELLS] = {1. / 6, 8, 1, 4, 1. / 6};
   for (int k = 0; k < VSC_CELLS; k++) {
     const vsc_cell_kind *kind = &vsc_cells[k];
     const vsc_cell_rule rule = vsc_cell_rule_of((vsc_cell)k);
@@ -107,6 +114,11 @@ static void faces_and_edges_fit(void **state)
     for (int e = 0; e < kind->edge_count; e++) {
       assert_int_equal(runs[kind->edges[e][0]][kind->edges[e][1]], 1);
       assert_int_equal(runs[kind->edges[e][1]][kind->edges[e][0]], 1);
+      const int middle = vsc_cell_middle(kind, kind->edges[e][1], kind->edges[e][0]);
+      assert_int_equal(middle, k == VSC_TET10 ? 4 + e : -1);
+      for (int a = 0; a < 3 && middle >= 0; a++)
+        assert_close(REFERENCE[k][middle][a], 0.5 * (REFERENCE[k][kind->edges[e][0]][a] +
+                                                     REFERENCE[k][kind->edges[e][1]][a]), 0, 0);
     }
   }
 }

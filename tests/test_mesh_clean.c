@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cleaning elements of all kinds, and surfaces; tets alone are in test_mesh_mesh.c.
+// Cleaning elements of all linear kinds, and surfaces; tets alone are in test_mesh_mesh.c, quadratic
+// ones in test_mesh_quadratic.c.
 #include "base/vec3.h"
 #include "close.h"
 #include "hybrid_mesh.h"
@@ -49,7 +50,7 @@ static void each_kind_is_turned_in_its_way(void **state)
   (void)state;
   static const uint32_t turned[VSC_CELLS][8] = {
       {4, 5, 7, 6}, {8, 9, 10, 11, 4, 5, 6, 7}, {7, 8, 9, 4, 5, 6}, {4, 7, 6, 5, 8}};
-  for (int kind = 0; kind < VSC_CELLS; kind++) {
+  for (int kind = 0; kind <= VSC_PYRAMID; kind++) {
     double mirrored[8][3];
     memcpy(mirrored, SOUND[kind], sizeof mirrored);
     for (int i = 0; i < 8; i++) mirrored[i][0] *= -1;
@@ -71,7 +72,7 @@ static void each_kind_is_turned_in_its_way(void **state)
 static void broken_elements_are_named_by_kind(void **state)
 {
   (void)state;
-  for (int kind = 0; kind < VSC_CELLS; kind++) {
+  for (int kind = 0; kind <= VSC_PYRAMID; kind++) {
     char words[160];
     const char *name = vsc_cells[kind].name;
     double flat[8][3];

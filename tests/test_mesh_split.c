@@ -68,7 +68,7 @@ static void tets_fill_and_fit(void **state)
     for (int t = 0; t < count; t++, at++) volume += vsc_mesh_element_volume(tets, at);
     assert_close(volume, vsc_mesh_element_volume(mesh, e), 1e-13, 0);
   }
-  for (int k = 0; k < VSC_CELLS; k++) assert_true(seen[k] > 0);
+  for (int k = 0; k <= VSC_PYRAMID; k++) assert_true(seen[k] > 0);
   assert_int_equal(tets->report.turned_elements, 0);
   // A conforming mesh of the cube shows 6 x 4 x 4 squares of two triangles outside.
   vsc_surface boundary;

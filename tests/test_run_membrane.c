@@ -15,23 +15,6 @@ static const char strip[] =
     "time: {end: 40 ms}\n"
     "output: {frames: 20 ms, signals: 2 ms}\n";
 
-// The number in a column of the last line of signals.csv.
-static double last_signal(const char *folder, const char *column)
-{
-  static char text[PROGRAM_TEXT];
-  char name[64];
-  snprintf(name, sizeof name, "%s/signals.csv", folder);
-  assert_true(load_text(name, text, sizeof text) > 0);
-  const char *place = strstr(text, column);
-  assert_non_null(place);
-  int number = 0;
-  for (const char *c = text; c < place; c++) number += *c == ',';
-  text[strlen(text) - 1] = '\0';
-  const char *row = strrchr(text, '\n') + 1;
-  while (number-- > 0) row = strchr(row, ',') + 1;
-  return strtod(row, NULL);
-}
-
 static void a_strip_falls(void **state)
 {
   (void)state;

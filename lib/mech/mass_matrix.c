@@ -3,6 +3,7 @@
 
 #include "base/mem.h"
 #include "mech/tangent.h"
+#include "model/masses.h"
 
 // int N_i N_j dV of corners i, j of the element in lane l of a pack.
 static double element_mass(const vsc_model *model, const vsc_patch *patch, size_t k, int i, int j, int l)
@@ -11,6 +12,10 @@ static double element_mass(const vsc_model *model, const vsc_patch *patch, size_
   if (patch->family == VSC_TETS) return frames->V[l] * (i == j ? 0.1 : 0.05);
   const vsc_cell_rule *rule = &model->rules[patch->family];
   double sum = 0;
+  if (patch->family == VSC_TETS10) {
+    for (int q = 0; q < rule->points; q++) sum += frames[q].V[l];
+    return sum * vsc_quadratic_mass(i, j);
+  }
   for (int q = 0; q < rule->points; q++) sum += frames[q].V[l] * rule->N[q][i] * rule->N[q][j];
   return sum;
 }

@@ -168,7 +168,8 @@ static void observe_nodes(const vsc_model *model, const vsc_state *state, vsc_to
     for (int i = 0; i < 3; i++) {
       totals->momentum[i] += m * v[i];
       totals->angular_momentum[i] += m * moment[i];
-      totals->gravity_energy -= m * model->gravity[i] * (x[i] - model->rest[4 * n + i]);
+      if (model->terms.gravity)
+        totals->gravity_energy -= model->weight[4 * n + (size_t)i] * (x[i] - model->rest[4 * n + i]);
     }
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A volume mesh as it came from a file or from arrays: nodes, elements (tetrahedra, hexahedra,
-// wedges, pyramids, in any mixture, or quadratic tetrahedra), surface triangles, and the named arrays that lie on them.
-// Lengths in mm, whatever the file's unit was.
+// wedges, pyramids, in any mixture, or quadratic tetrahedra), surface triangles, and the named arrays
+// that lie on them. Lengths in mm, whatever the file's unit was.
 #ifndef VSC_MESH_MESH_H
 #define VSC_MESH_MESH_H
 

@@ -12,8 +12,9 @@ enum { VSC_MOST_TETS = 8 };
 // corners being cut from their corner with the smallest number (a pyramid 2, a wedge 3, a
 // hexahedron 6; fewer where three corners of a face lie in line and make a flat tet, which is left
 // out). A quadratic tet gives eight between its nodes: four at its corners, four round the edge between
-// the middles of edges 01 and 23. Neighbours cut a common face alike, so that the tets of a mesh fit together. Returns how many
-// there are; corners of elements with strongly bent faces may make tets of negative volume.
+// the middles of edges 01 and 23. Neighbours cut a common face alike, so that the tets of a mesh fit
+// together. Returns how many there are; corners of elements with strongly bent faces may make tets of
+// negative volume.
 int vsc_mesh_split(const vsc_mesh *mesh, size_t element, uint32_t tets[VSC_MOST_TETS][4]);
 
 // A face of an element (places among `corners`; face[3] < 0: a triangle) as triangles that turn like

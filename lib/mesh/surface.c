@@ -325,6 +325,27 @@ double vsc_cavity_volume(const vsc_cavity *cavity, const double *positions, size
   return volume;
 }
 
+vsc_status vsc_surface_flatten(vsc_surface *surface, vsc_error *error)
+{
+  static const int parts[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
+  uint32_t *flat;
+  if (surface->mid == NULL) return VSC_OK;
+  if (!VSC_NEW(flat, 12 * surface->count)) return vsc_fail_memory(error, "a surface");
+  for (size_t t = 0; t < surface->count; t++)
+    for (int part = 0; part < 4; part++)
+      for (int i = 0; i < 3; i++) {
+        const int node = parts[part][i];
+        flat[12 * t + 3 * (size_t)part + (size_t)i] =
+            node < 3 ? surface->triangles[3 * t + (size_t)node] : surface->mid[3 * t + (size_t)node - 3];
+      }
+  vsc_free(surface->triangles);
+  vsc_free(surface->mid);
+  surface->triangles = flat;
+  surface->mid = NULL;
+  surface->count *= 4;
+  return VSC_OK;
+}
+
 static double triangle_area(const double a[3], const double b[3], const double c[3])
 {
   double ab[3], ac[3], normal[3];

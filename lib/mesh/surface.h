@@ -48,6 +48,10 @@ void vsc_cavity_free(vsc_cavity *cavity);
 // positions[stride i .. stride i + 2].
 double vsc_cavity_volume(const vsc_cavity *cavity, const double *positions, size_t stride);
 
+// Makes a surface of six-node faces one of four times as many flat triangles between their nodes, without
+// middles; others stay. VSC_SYSTEM when memory is short.
+vsc_status vsc_surface_flatten(vsc_surface *surface, vsc_error *error);
+
 // The area of a surface, mm^2; positions as above. Of curved faces by the points of mesh/face.h.
 double vsc_surface_area(const vsc_surface *surface, const double *positions, size_t stride);
 

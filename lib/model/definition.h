@@ -214,7 +214,7 @@ typedef enum vsc_mass_kind {
   VSC_MASS_VORONOI,  // what of the body is nearest to the node (model/masses.h)
   VSC_MASS_EQUAL,    // all nodes alike, the same total
   VSC_MASS_CONSISTENT,  // int rho N_i N_j dV, which joins nodes; for solve implicit only. What else is
-                        // told by masses (weight, momentum) takes the lumped ones
+                        // told by masses (momentum) takes the lumped ones
 } vsc_mass_kind;
 
 // Volumes that are kept to rounding by Lagrange multipliers, beside the volume energy.

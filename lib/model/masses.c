@@ -3,6 +3,7 @@
 #include "model/masses.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #include "base/mem.h"
@@ -156,6 +157,20 @@ void vsc_lumped_volumes(const vsc_mesh *mesh, size_t element, double volumes[VSC
     for (int c = 0; c < corners; c++)
       volumes[c] += rule.weight[q] * vsc_dot(h[0], dual) * rule.N[q][c];
   }
+}
+
+double vsc_quadratic_mass(int i, int j)
+{
+  // corners first
+  const int low = i < j ? i : j, high = i < j ? j : i;
+  if (high < 4) return (low == high ? 6 : 1) / 420.0;
+  const int *edge = vsc_cells[VSC_TET10].edges[high - 4];
+  if (low < 4) return (low == edge[0] || low == edge[1] ? -4 : -6) / 420.0;
+  if (low == high) return 32 / 420.0;
+  const int *other = vsc_cells[VSC_TET10].edges[low - 4];
+  const bool meet = edge[0] == other[0] || edge[0] == other[1] || edge[1] == other[0] ||
+                    edge[1] == other[1];
+  return (meet ? 16 : 8) / 420.0;
 }
 
 // The tets into which an element is cut: its centre and the triangles of its faces, four-cornered

@@ -11,6 +11,10 @@
 // corner, 4/27 to each middle.
 void vsc_lumped_volumes(const vsc_mesh *mesh, size_t element, double volumes[VSC_MOST_CORNERS]);
 
+// int N_i N_j dV / V of nodes i, j of a quadratic tet with straight edges; with bent ones it stands for
+// them too.
+double vsc_quadratic_mass(int i, int j);
+
 // masses[n] (node_count) = density x the volume of what is nearest to node n, mg: each element (of
 // density[e], mg/mm^3) is shared among its own corners and those of its neighbours across faces by
 // which is nearest. In a Delaunay mesh whose cells reach no further than that it is the volume of

@@ -268,7 +268,8 @@ typedef struct vsc_model {
   double *rest;          // node_count x 4: rest position, mm; fourth 0
   double *mass;          // node_count: lumped, mg
   double *inverse_mass;  // node_count x 4: 1/mass, 0 in held directions and in the fourth
-  double *weight;        // node_count x 4: mass . gravity, mN; NULL without gravity
+  double *weight;        // node_count x 4: mass . gravity, mN; of quadratic tets in equilibrium or with
+                         // consistent masses int rho N_i gravity dV; NULL without gravity
 
   // volume groups of the nodes, when terms.nodal_volume
   double *group_volume;   // node_count: a quarter of the tets' rest volume round the node, mm^3; 1

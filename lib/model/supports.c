@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "model/masses.h"
 #include "model/robin.h"
 #include "model/terms.h"
 
@@ -199,6 +200,35 @@ static vsc_status add_robin(const vsc_robin_def *def, size_t r, const uint32_t *
   return status;
 }
 
+// int rho N_i g dV of quadratic tets, which is below 0 at corners: what their lumped masses, which are
+// not, would weigh is another load.
+static void weigh_quadratic(const vsc_model *model, double *weight)
+{
+  for (size_t p = 0; p < model->patch_count; p++) {
+    const vsc_patch *patch = &model->patches[p];
+    if (patch->family != VSC_TETS10) continue;
+    const double density = model->materials[patch->material].density;
+    for (size_t slot = 0; slot < VSC_WIDTH * (size_t)patch->pack_count; slot++) {
+      const size_t k = patch->first_pack + slot / VSC_WIDTH, l = slot % VSC_WIDTH;
+      double volume = 0;
+      for (int q = 0; q < vsc_family_frames(model, patch->family); q++)
+        volume += vsc_pack_frames(model, patch, k)[q].V[l];
+      for (int i = 0; i < vsc_family_corners(patch->family) && volume > 0; i++) {
+        const size_t node = vsc_node_of(model, patch, vsc_pack_nodes(model, patch, k)[i][l]);
+        double part = 0;
+        for (int j = 0; j < vsc_family_corners(patch->family); j++) part += vsc_quadratic_mass(i, j);
+        for (size_t a = 0; a < 3; a++)
+          weight[4 * node + a] += density * volume * part * model->gravity[a];
+      }
+    }
+  }
+}
+
+static bool is_quadratic(const vsc_model *model)
+{
+  return model->patch_count > 0 && model->patches[0].family == VSC_TETS10;
+}
+
 static vsc_status add_weight(const vsc_definition *definition, vsc_model *model, vsc_error *error)
 {
   const double *gravity = definition->gravity;
@@ -206,6 +236,12 @@ static vsc_status add_weight(const vsc_definition *definition, vsc_model *model,
   model->terms.gravity = gravity[0] != 0 || gravity[1] != 0 || gravity[2] != 0;
   if (!model->terms.gravity) return VSC_OK;
   if (!VSC_NEW(model->weight, 4 * model->node_count)) return vsc_fail_memory(error, "the weight");
+  const bool lumped = definition->solve.kind != VSC_SOLVE_EQUILIBRIUM &&
+                      definition->masses != VSC_MASS_CONSISTENT;
+  if (is_quadratic(model) && !lumped) {
+    weigh_quadratic(model, model->weight);
+    return VSC_OK;
+  }
   for (size_t n = 0; n < model->node_count; n++)
     for (int i = 0; i < 3; i++) model->weight[4 * n + i] = model->mass[n] * gravity[i];
   return VSC_OK;

@@ -39,6 +39,13 @@ static void warn_paper(writer *w, const vsc_material *material)
        material->name);
 }
 
+static bool has_linear_tets(const vsc_model *model)
+{
+  for (size_t p = 0; p < model->patch_count; p++)
+    if (model->patches[p].family == VSC_TETS) return true;
+  return false;
+}
+
 static void warn_volume(writer *w, const vsc_model *model, const vsc_material *material)
 {
   const double stiff = largest(material->axial);
@@ -52,7 +59,7 @@ static void warn_volume(writer *w, const vsc_model *model, const vsc_material *m
          "elements "
          "could rest there; 100 times the shear modulus is usual",
          material->name, K, stiff);
-  if (!model->terms.nodal_volume && K > 20 * shear)
+  if (!model->terms.nodal_volume && has_linear_tets(model) && K > 20 * shear)
     warn(w,
          "material %s: volume_modulus is %.0f times the shear modulus and each tet keeps its own "
          "volume: "

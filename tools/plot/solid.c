@@ -7,7 +7,7 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
-#include "mesh/select.h"
+#include "mesh/surface.h"
 
 enum { KIND_FACE = 1, KIND_EDGE, KIND_SPHERE, TURNS = 48 };
 static const double EDGE = 0.9;  // half the width of an edge, pixels
@@ -69,8 +69,12 @@ static bool list_edges(picture *p)
   for (size_t e = 0; e < mesh->element_count; e++) {
     const uint32_t *corners = vsc_mesh_corners(mesh, e);
     const vsc_cell_kind *kind = vsc_mesh_kind(mesh, e);
-    for (int k = 0; k < kind->edge_count; k++)
-      p->edges[p->edge_count++] = key(corners[kind->edges[k][0]], corners[kind->edges[k][1]]);
+    for (int k = 0; k < kind->edge_count; k++) {
+      const int *ends = kind->edges[k], middle = vsc_cell_middle(kind, ends[0], ends[1]);
+      // halves of edges with a middle: a quadratic tet's 12 are as many as any kind has
+      p->edges[p->edge_count++] = key(corners[ends[0]], corners[middle < 0 ? ends[1] : middle]);
+      if (middle >= 0) p->edges[p->edge_count++] = key(corners[middle], corners[ends[1]]);
+    }
   }
   if (mesh->element_count == 0)
     for (size_t c = 0; c < 3 * mesh->triangle_count; c++)
@@ -161,7 +165,8 @@ static vsc_status draw_surface(const picture *p, vsc_error *error)
     return VSC_OK;
   }
   vsc_surface boundary = {0};
-  const vsc_status status = vsc_boundary(mesh, &boundary, error);
+  vsc_status status = vsc_boundary(mesh, &boundary, error);
+  if (status == VSC_OK) status = vsc_surface_flatten(&boundary, error);
   for (size_t t = 0; status == VSC_OK && t < boundary.count; t++)
     draw_triangle(p, boundary.triangles + 3 * t);
   vsc_surface_free(&boundary);

@@ -6,7 +6,7 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
-#include "mesh/select.h"
+#include "mesh/surface.h"
 #include "mesh/split.h"
 
 static const double RAISED = 0.31;      // the camera's elevation, radians
@@ -325,7 +325,11 @@ static vsc_status draw_boundary(const scene *s, const double *displacement, vsc_
 {
   vsc_surface boundary = {0};
   vsc_status status = vsc_boundary(s->mesh, &boundary, error);
-  if (status != VSC_OK) return status;
+  if (status == VSC_OK) status = vsc_surface_flatten(&boundary, error);
+  if (status != VSC_OK) {
+    vsc_surface_free(&boundary);
+    return status;
+  }
   fans f;
   status = make_fans(s->mesh, &boundary, s->camera, displacement, &f, error);
   for (size_t t = 0; status == VSC_OK && t < boundary.count; t++) {
