@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <vtkDoubleArray.h>
+#include <vtkGenericCell.h>
+#include <vtkPoints.h>
+#include <vtkStaticCellLocator.h>
+#include <vtkTypeInt64Array.h>
+
+extern "C" {
+#include "io/vtk_probe.h"
+}
+#include "io/vtk_cells.hh"
+#include "io/vtk_quiet.hh"
+
+namespace {
+
+// The mesh's elements without its triangles, on its own nodes.
+vtkSmartPointer<vtkUnstructuredGrid> make_grid(const vsc_mesh *mesh)
+{
+  vtkNew<vtkDoubleArray> places;
+  places->SetNumberOfComponents(3);
+  places->SetArray(mesh->nodes, (vtkIdType)(3 * mesh->node_count), 1);  // borrowed
+  vtkNew<vtkPoints> points;
+  points->SetData(places);
+  vsc_mesh elements = *mesh;
+  elements.triangle_count = 0;
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetPoints(points);
+  vsc::set_cells<vtkTypeInt64Array>(grid, &elements);
+  return vtkSmartPointer<vtkUnstructuredGrid>(grid.GetPointer());
+}
+
+vsc_status probe(const vsc_mesh *mesh, size_t count, const double *points, vsc_place *places,
+                 vsc_error *error)
+{
+  vsc::silence quiet;
+  vtkSmartPointer<vtkUnstructuredGrid> grid = make_grid(mesh);
+  vtkNew<vtkStaticCellLocator> locator;
+  locator->SetDataSet(grid);
+  locator->BuildLocator();
+  vtkNew<vtkGenericCell> cell;
+  for (size_t i = 0; i < count; i++) {
+    double at[3] = {points[3 * i], points[3 * i + 1], points[3 * i + 2]};
+    double local[3], weights[VSC_MOST_CORNERS], nearest[3], square;
+    int part;
+    vtkIdType element = locator->FindCell(at, 0, cell, local, weights);
+    if (element < 0) locator->FindClosestPoint(at, nearest, cell, element, part, square);
+    if (element < 0 || (size_t)element >= mesh->element_count)
+      return vsc_fail(error, VSC_SYSTEM, "VTK finds no element near (%g, %g, %g) mm: %s", at[0], at[1],
+                      at[2], quiet.said().c_str());
+    vsc_place_within(mesh, (size_t)element, at, &places[i]);
+  }
+  return VSC_OK;
+}
+
+}  // namespace
+
+vsc_status vsc_vtk_probe(const vsc_mesh *mesh, size_t count, const double *points, vsc_place *places,
+                         vsc_error *error)
+{
+  return vsc::guarded("a mesh", error, [&] { return probe(mesh, count, points, places, error); });
+}
