@@ -145,10 +145,12 @@ static void print_slope(const series *s, const vsc_comparison *errors, const vsc
     for (size_t i = 0; i < errors[k].count; i++)
       if (strcmp(errors[k].arrays[i].name, of_last->name) == 0 &&
           strcmp(errors[k].arrays[i].where, of_last->where) == 0)
-        e[k] = vsc_norms_relative(&errors[k].arrays[i], true);
+        e[k] = vsc_norms_rms(&errors[k].arrays[i], true);
     printf(" %12.5g", e[k]);
   }
-  printf(" %7.3g\n", vsc_order_slope(s->count - 1, s->size, e));
+  const double slope = vsc_order_slope(s->count - 1, s->size, e);
+  if (isnan(slope)) puts("       -");
+  else printf(" %7.3g\n", slope);
 }
 
 // The finest run itself is off by a part of its error, so that slopes come out steeper than the order,
@@ -167,7 +169,7 @@ static vsc_status print_fields(const vsc_order_wish *wish, const series *s, vsc_
     vsc_pair_free(&pair);
   }
   if (status == VSC_OK) {
-    printf("\nrelative L2, by volume, of the last frames against run %zu\n%-24s %-8s", s->count,
+    printf("\nRMS by volume of the last frames' differences from run %zu\n%-24s %-8s", s->count,
            "array", "on");
     for (size_t k = 0; k < coarser; k++) printf("        run %zu", k + 1);
     printf(" %7s\n", "slope");

@@ -22,8 +22,8 @@ typedef struct vsc_order_wish {
 
 // What `viscera compare --order` does: for each signal the last row of each run, the order by
 // vsc_order_of of each three runs that follow one another, the extrapolated value and the uncertainty;
-// then for each array of the last frames the errors of the runs against the finest, by volume, and
-// their slope. Returns the exit code.
+// then for each array of the last frames the RMS by volume of the runs' differences from the
+// finest, and their slope over the sizes (vsc_order_slope). Returns the exit code.
 int vsc_compare_order(const vsc_order_wish *wish);
 
 #endif

@@ -47,7 +47,7 @@ vsc_order vsc_order_of(const double h[3], const double f[3])
   sizes s = {log(h[0] / h[1]), log(h[1] / h[2]), coarse / fine};
   if (fine == 0) o.trend = VSC_TREND_STANDS;
   else if (s.ratio < 0) o.trend = VSC_TREND_OSCILLATES;
-  else if (!(misfit(1e-9, &s) < 0)) o.trend = VSC_TREND_DIVERGES;
+  else if (s.ratio == 0 || !(misfit(1e-9, &s) < 0)) o.trend = VSC_TREND_DIVERGES;
   else if (misfit(HIGHEST, &s) < 0) o.trend = VSC_TREND_STANDS;
   if (o.trend != VSC_TREND_CONVERGES) return o;
   o.order = find_order(&s);

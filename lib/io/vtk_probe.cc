@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <vtkDoubleArray.h>
 #include <vtkGenericCell.h>
+#include <vtkIdList.h>
 #include <vtkPoints.h>
 #include <vtkStaticCellLocator.h>
 #include <vtkTypeInt64Array.h>
@@ -12,6 +13,8 @@ extern "C" {
 #include "io/vtk_quiet.hh"
 
 namespace {
+
+constexpr double ROUNDING = 1e-12;  // mm
 
 // The mesh's elements without its triangles, on its own nodes.
 vtkSmartPointer<vtkUnstructuredGrid> make_grid(const vsc_mesh *mesh)
@@ -29,6 +32,24 @@ vtkSmartPointer<vtkUnstructuredGrid> make_grid(const vsc_mesh *mesh)
   return vtkSmartPointer<vtkUnstructuredGrid>(grid.GetPointer());
 }
 
+// Looks at all elements that reach as near to `at` as `place` is: a better one takes its place.
+void improve(const vsc_mesh *mesh, vtkStaticCellLocator *locator, const double at[3], vtkIdList *near,
+             vsc_place *place)
+{
+  const double reach = place->distance;
+  double box[6];
+  for (int a = 0; a < 3; a++) {
+    box[2 * a] = at[a] - reach;
+    box[2 * a + 1] = at[a] + reach;
+  }
+  locator->FindCellsWithinBounds(box, near);
+  for (vtkIdType i = 0; i < near->GetNumberOfIds() && place->distance > ROUNDING; i++) {
+    vsc_place other;
+    vsc_place_within(mesh, (size_t)near->GetId(i), at, &other);
+    if (other.distance < place->distance) *place = other;
+  }
+}
+
 vsc_status probe(const vsc_mesh *mesh, size_t count, const double *points, vsc_place *places,
                  vsc_error *error)
 {
@@ -38,6 +59,7 @@ vsc_status probe(const vsc_mesh *mesh, size_t count, const double *points, vsc_p
   locator->SetDataSet(grid);
   locator->BuildLocator();
   vtkNew<vtkGenericCell> cell;
+  vtkNew<vtkIdList> near;
   for (size_t i = 0; i < count; i++) {
     double at[3] = {points[3 * i], points[3 * i + 1], points[3 * i + 2]};
     double local[3], weights[VSC_MOST_CORNERS], nearest[3], square;
@@ -48,6 +70,7 @@ vsc_status probe(const vsc_mesh *mesh, size_t count, const double *points, vsc_p
       return vsc_fail(error, VSC_SYSTEM, "VTK finds no element near (%g, %g, %g) mm: %s", at[0], at[1],
                       at[2], quiet.said().c_str());
     vsc_place_within(mesh, (size_t)element, at, &places[i]);
+    if (places[i].distance > ROUNDING) improve(mesh, locator, at, near, &places[i]);
   }
   return VSC_OK;
 }

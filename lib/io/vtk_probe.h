@@ -5,10 +5,10 @@
 
 #include "mesh/place.h"
 
-// places[i] = the place of the mesh nearest to points[3 i .. 3 i + 2] (mm), as vsc_place_within has it in
-// the element in which VTK finds the point, or which VTK says is nearest. What vsc_place_find is for few
-// points: outside a curved boundary VTK may settle for the neighbour of the nearest element. The mesh has
-// elements; `places` has room for `count`. VSC_SYSTEM when VTK fails.
+// places[i] = the place of the mesh nearest to points[3 i .. 3 i + 2] (mm), by vsc_place_within in the
+// element in which VTK finds the point or which it says is nearest (VTK's cells reach a thousandth of their
+// size beyond their faces), and in all that are as near. What vsc_place_find is for few points. The mesh
+// has elements; `places` has room for `count`. VSC_SYSTEM when VTK fails.
 vsc_status vsc_vtk_probe(const vsc_mesh *mesh, size_t count, const double *points, vsc_place *places,
                          vsc_error *error);
 
