@@ -7,6 +7,7 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
+#include "fibers/ellipsoid.h"
 #include "fibers/helix.h"
 #include "fibers/sample.h"
 #include "tools/shapes_bricks.h"
@@ -79,28 +80,27 @@ double vsc_lv_volume(const vsc_lv_shape *lv, double depth)
   return M_PI * rs * rs * (b + 2 * rl / 3 - b * b * b / (3 * rl * rl));
 }
 
+static const double long_axis[3] = {0, 0, 1};
+
+static double depth_and_normal(const vsc_lv_shape *lv, const double point[3], double outwards[3])
+{
+  const vsc_ellipsoid_def wall = {.endo_radius = lv->endo_radius,
+                                  .endo_length = lv->endo_length,
+                                  .epi_radius = lv->epi_radius,
+                                  .epi_length = lv->epi_length};
+  return vsc_ellipsoid_depth(&wall, long_axis, point, outwards);
+}
+
 double vsc_lv_depth(const vsc_lv_shape *lv, const double point[3])
 {
-  const double square = point[0] * point[0] + point[1] * point[1];
-  double low = -1, high = 3;
-  for (int i = 0; i < 60; i++) {
-    const double t = (low + high) / 2, rs = radius(lv, t), rl = length(lv, t);
-    const bool outside =
-        rs <= 0 || rl <= 0 || square / (rs * rs) + point[2] * point[2] / (rl * rl) > 1;
-    if (outside)
-      low = t;
-    else
-      high = t;
-  }
-  return (low + high) / 2;
+  return depth_and_normal(lv, point, NULL);
 }
 
 void vsc_lv_frame(const vsc_lv_shape *lv, const double point[3], double endo_angle,
                   double epi_angle, double frame[9])
 {
-  static const double long_axis[3] = {0, 0, 1};
-  const double t = vsc_lv_depth(lv, point), rs = radius(lv, t), rl = length(lv, t);
-  const double outwards[3] = {point[0] / (rs * rs), point[1] / (rs * rs), point[2] / (rl * rl)};
+  double outwards[3];
+  const double t = depth_and_normal(lv, point, outwards);
   vsc_helix_frame(outwards, long_axis, (1 - t) * endo_angle + t * epi_angle, frame);
 }
 

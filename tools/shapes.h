@@ -29,8 +29,8 @@ vsc_lv_shape vsc_lv_default(void);
 // pi rs^2 (b + 2 rl/3 - b^3 / (3 rl^2)).
 double vsc_lv_volume(const vsc_lv_shape *shape, double depth);
 
-// Depth of a point: the t whose ellipsoid holds it, between -1 and 3 (limited to these), by
-// bisection of (x^2 + y^2) / rs(t)^2 + z^2 / rl(t)^2 = 1.
+// Depth of a point: the t whose ellipsoid holds it, between -1 and 3 (limited to these):
+// vsc_ellipsoid_depth.
 double vsc_lv_depth(const vsc_lv_shape *shape, const double point[3]);
 
 // The frame (rows f, s, n) of the transmural helix at a point, by the convention of fibers/helix.h:
