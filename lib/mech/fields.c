@@ -40,7 +40,7 @@ vsc_status vsc_field_check(const vsc_model *model, vsc_field field, vsc_error *e
     if (!vsc_patch_is_solid(patch) || vsc_patch_has_stress(model, patch)) continue;
     const vsc_material *material = &model->materials[patch->material];
     return vsc_fail(error, VSC_INPUT,
-                    "stress of material \"%s\": law %s is not a function of strain; leave the "
+                    "stress of material \"%s\": law %s is not a function of strain; leave "
                     "stress out, or use law: springs",
                     material->name, material->law == VSC_LAW_PAPER ? "paper" : "classical");
   }

@@ -80,7 +80,8 @@ typedef enum vsc_field {
   // by rest volume: E = (F^T F - 1)/2. Stress is Cauchy's, kPa, by deformed volume (0 where that is
   // not above 0), of all that acts in the tissue at the state's time, activity and damping included,
   // multipliers of keep_volume not:
-  //   sigma = 1/J sum_ab S_ab g_a (x) g_b + p 1,  p = U'(J) of the frame and of its volume group.
+  //   sigma = 1/J sum_ab S_ab g_a (x) g_b + p 1,  p = U'(J) of the frame and of its volume group, and
+  // -m/J of laws of the full deformation (model/law_volume.h).
   // In fibre axes components are ff ss nn fs sn nf, of strain in the axes at rest, of stress in the
   // deformed ones: f along g_f, s in the plane of g_f and g_s, n across it; 0 where the fibre is not
   // known. In global axes xx yy zz xy yz xz.

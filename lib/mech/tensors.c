@@ -25,8 +25,7 @@ bool vsc_field_is_stress(vsc_field field)
 
 bool vsc_patch_has_stress(const vsc_model *model, const vsc_patch *patch)
 {
-  const vsc_law law = model->materials[patch->material].law;
-  return vsc_patch_is_solid(patch) && law != VSC_LAW_PAPER && law != VSC_LAW_CLASSICAL;
+  return vsc_patch_is_solid(patch) && vsc_law_is_of_strain(model->materials[patch->material].law);
 }
 
 // Symmetric tensors of four elements: 11 22 33 12 23 31, in fibre axes and in global ones.
@@ -86,18 +85,13 @@ static void stress_on_frame(const vsc_law_input *in, const vsc_wide3 g[3], const
                             vsc_wide S[6])
 {
   vsc_law_answer answer;
-  vsc_wide e[6], viscous[6][6];
+  vsc_wide e[6], speed[6];
   vsc_strain_of(g, e);
   vsc_law_evaluate(in, e, VSC_LAW_STRESS, &answer);
   memcpy(S, answer.S, sizeof answer.S);
   if (rate == NULL) return;
-  vsc_law_viscous(in->material, &in->moduli, in->axes, e, viscous);
-  for (int a = 0; a < 3; a++) {
-    const int b = (a + 1) % 3;
-    const vsc_wide along = vsc_wide_dot(g[a], rate[a]);
-    const vsc_wide across = vsc_wide_dot(g[a], rate[b]) + vsc_wide_dot(g[b], rate[a]);
-    for (int i = 0; i < 6; i++) S[i] += viscous[i][a] * along + viscous[i][3 + a] * across;
-  }
+  vsc_strain_rate(g, rate, speed);
+  vsc_law_add_viscous_stress(in->material, &in->moduli, in->axes, e, speed, S);
 }
 
 static vsc_wide3 unit_of(vsc_wide3 a)
@@ -163,7 +157,8 @@ static pack_tensors stress_of(const vsc_patch_work *work, const vsc_model *model
   const vsc_wide shared = shared_pressure(work, model, patch, k, &in.moduli, J);
   for (int q = 0; q < frames; q++) {
     const vsc_wide V = vsc_pack_frames(model, patch, k)[q].V;
-    const vsc_wide pressure = V * J[q] * (shared + vsc_volume_stress(own, J[q]));
+    const vsc_wide pressure = V * J[q] * (shared + vsc_volume_stress(own, J[q]) +
+                                          vsc_rest_stress(vsc_splat(work->material->rest_shear), J[q]));
     if (work->w != NULL) vsc_pack_axes(model, patch, k, q, state->v, rate);
     stress_on_frame(&in, g[q], work->w != NULL ? rate : NULL, S);
     in_deformed_frame(g[q], seen);
