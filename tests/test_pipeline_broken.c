@@ -61,6 +61,7 @@ static void test_settings(void **state)
       {"--set 'output.frames=0 ms'", "output.frames"},
       {"--set 'output.cavities=[hole]'", "hole"},
       {"--set 'output.arrays=[displacment]'", "displacement"},
+      {"--set 'output.arrays=[helix_angle]'", "output.axis"},
       {"--set 'supports[0].set=lefft'", "left"},
       {"--set 'supports[0].held=[w]'", "held"},
       {"--set 'pressures[0].surface=nd'", "end"},

@@ -11,7 +11,7 @@
 #include "model/definition.h"
 #include "model/fiber_def.h"
 
-enum { VSC_OUTPUT_ARRAYS = 16, VSC_MOST_PRESSURES = 52, VSC_OUTPUT_POINTS = 64 };  // of a scene
+enum { VSC_OUTPUT_ARRAYS = 32, VSC_MOST_PRESSURES = 52, VSC_OUTPUT_POINTS = 64 };  // of a scene
 
 // A material point whose way is a signal.
 typedef struct vsc_point_def {
@@ -27,6 +27,9 @@ typedef struct vsc_output_def {
   bool double_precision;   // 64-bit floats in the frames; default false: 32
   size_t array_count;      // arrays of the frames; 0: the default set
   char arrays[VSC_OUTPUT_ARRAYS][VSC_NAME];
+  double centre[3];        // a point of the line that helix angles are seen from, mm; default 0 0 0
+  double axis[3];          // its direction from apex to base, of any length; 0 0 0 (default): that
+                           // of fibers.helix
   double signal_interval;  // ms between rows of signals.csv; default 1; of solve
                            // implicit and equilibrium as the frames
   size_t cavity_count;     // surfaces whose enclosed (capped) volume is a signal

@@ -169,6 +169,21 @@ static vsc_status check_point(vsc_reading *reading, const vsc_output_def *output
   return VSC_OK;
 }
 
+// A helix angle needs an axis: its own, or that of the fibres.
+static vsc_status check_arrays(vsc_reading *reading, const vsc_scene *scene)
+{
+  const vsc_output_def *output = &scene->output;
+  if (vsc_norm(output->axis) > 0 || scene->fibers.source == VSC_FIBER_HELIX) return VSC_OK;
+  for (size_t i = 0; i < output->array_count; i++) {
+    if (strcmp(output->arrays[i], "helix_angle") != 0) continue;
+    vsc_enter(reading, "output.arrays");
+    vsc_enter_item(reading, i);
+    return vsc_reading_fail(reading, "helix_angle without an axis; give output.axis, from apex to "
+                                     "base: [0, 0, 1]");
+  }
+  return VSC_OK;
+}
+
 static vsc_status check_output(vsc_reading *reading, const vsc_scene *scene)
 {
   const vsc_output_def *output = &scene->output;
@@ -177,6 +192,7 @@ static vsc_status check_output(vsc_reading *reading, const vsc_scene *scene)
     status = check_interval(reading, "output.signals", output->signal_interval, false);
   if (status == VSC_OK)
     status = check_interval(reading, "output.checkpoint", output->checkpoint_interval, true);
+  if (status == VSC_OK) status = check_arrays(reading, scene);
   for (size_t i = 0; i < output->cavity_count && status == VSC_OK; i++) {
     vsc_enter(reading, "output.cavities");
     vsc_enter_item(reading, i);

@@ -90,7 +90,10 @@ static const vsc_word precisions[] = {{"single", false}, {"double", true}, {NULL
 static const vsc_word frame_arrays[] = {
     {"displacement", 0}, {"velocity", 0},       {"fiber", 0},     {"sheet", 0},
     {"normal", 0},       {"active_tension", 0}, {"stretch_f", 0}, {"volume_ratio", 0},
-    {"region", 0},       {NULL, 0},
+    {"region", 0},       {"strain_fiber", 0},   {"strain", 0},    {"principal_strains", 0},
+    {"principal_strain_axis", 0}, {"stress_fiber", 0},        {"stress", 0},
+    {"von_mises", 0},             {"principal_stresses", 0},  {"principal_stress_axis", 0},
+    {"helix_angle", 0},           {NULL, 0},
 };
 
 static const vsc_row point_rows[] = {
@@ -118,7 +121,13 @@ static const vsc_row output_rows[] = {
      .count = VSC_OUTPUT_ARRAYS, .words = frame_arrays,
      .text = "[displacement, velocity, fiber, sheet, normal, active_tension, stretch_f, "
              "volume_ratio, region]",
-     .meaning = "of the frames; []: the usual ones"},
+     .meaning = "of the frames; []: the usual ones; also strain, strain_fiber, principal_strains, "
+                "principal_strain_axis, stress, stress_fiber, von_mises, principal_stresses, "
+                "principal_stress_axis, helix_angle"},
+    {"axis", VECTOR(vsc_output_def, axis, VSC_NUMBER), .text = "[0, 0, 0]",
+     .meaning = "helix_angle: from apex to base; [0, 0, 0]: that of fibers.helix"},
+    {"centre", VECTOR(vsc_output_def, centre, VSC_LENGTH), .text = "[0 mm, 0 mm, 0 mm]",
+     .meaning = "helix_angle: a point that this axis goes through"},
     {"signals", QUANTITY(vsc_output_def, signal_interval, VSC_TIME), .text = "1 ms",
      .meaning = "between rows of signals.csv; default of equilibria: as the frames"},
     {"cavities", .kind = VSC_ROW_NAMES, LIST_AT(vsc_output_def, cavities, cavity_count),

@@ -76,15 +76,48 @@ typedef enum vsc_field {
   VSC_FIELD_ACTIVE_TENSION,  // elements x 1, kPa: T, or what an active spring adds to the passive one
   VSC_FIELD_STRETCH,         // elements x 1: |g_f|
   VSC_FIELD_VOLUME_RATIO,    // elements x 1: J
+  // Strains and stresses, of which an element has the mean of its frames. Strain is Green-Lagrange's,
+  // by rest volume: E = (F^T F - 1)/2. Stress is Cauchy's, kPa, by deformed volume (0 where that is
+  // not above 0), of all that acts in the tissue at the state's time, activity and damping included,
+  // multipliers of keep_volume not:
+  //   sigma = 1/J sum_ab S_ab g_a (x) g_b + p 1,  p = U'(J) of the frame and of its volume group, and
+  // -m/J of laws of the full deformation (model/law_volume.h).
+  // In fibre axes components are ff ss nn fs sn nf, of strain in the axes at rest, of stress in the
+  // deformed ones: f along g_f, s in the plane of g_f and g_s, n across it; 0 where the fibre is not
+  // known. In global axes xx yy zz xy yz xz.
+  VSC_FIELD_STRAIN_FIBER,           // elements x 6
+  VSC_FIELD_STRAIN,                 // elements x 6
+  VSC_FIELD_PRINCIPAL_STRAINS,      // elements x 3: from the largest to the smallest
+  VSC_FIELD_PRINCIPAL_STRAIN_AXIS,  // elements x 3: unit vector of the largest, in the body at rest
+  VSC_FIELD_STRESS_FIBER,           // elements x 6, kPa
+  VSC_FIELD_STRESS,                 // elements x 6, kPa
+  VSC_FIELD_VON_MISES,              // elements x 1, kPa: sqrt(3/2 s : s), s the deviator of sigma
+  VSC_FIELD_PRINCIPAL_STRESSES,     // elements x 3, kPa
+  VSC_FIELD_PRINCIPAL_STRESS_AXIS,  // elements x 3
+  VSC_FIELD_HELIX_ANGLE,  // elements x 1, degrees: vsc_read_helix_angle reads it
 } vsc_field;
 
 // True for fields on nodes.
 bool vsc_field_on_nodes(vsc_field field);
 
-// 3 or 1.
+// 6, 3 or 1.
 int vsc_field_components(vsc_field field);
 
-// Writes a field in the mesh's own order; `values` has room for all tuples.
+// VSC_INPUT when the model has no such field: stress, where a material's law is not a function of
+// strain (paper, classical).
+vsc_status vsc_field_check(const vsc_model *model, vsc_field field, vsc_error *error);
+
+// Writes a field in the mesh's own order; `values` has room for all tuples. Elements without the field
+// (vsc_field_check) get 0.
 void vsc_read_field(const vsc_model *model, vsc_state *state, vsc_field field, double *values);
+
+// The angle of each element's deformed fibre above the circumference, in degrees, -90 to 90, into
+// `values` (the mesh's order): seen from the line through `centre` (mm) along `axis` (from apex to
+// base, of any length but 0),
+//   atan(f . e_l / f . e_c),  e_l along the axis, e_c = e_l x (from the line to the element)
+// as fibers/helix.h counts it, on a cylinder: where the wall leans from the axis by an angle b, its
+// tangent is that within the wall times cos b. 0 where the fibre is not known.
+void vsc_read_helix_angle(const vsc_model *model, const vsc_state *state, const double centre[3],
+                          const double axis[3], double *values);
 
 #endif

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/vec3.h"
 #include "io/vtk.h"
 #include "run/job.h"
 
@@ -20,6 +21,16 @@ static const struct {
     {"stretch_f", VSC_FIELD_STRETCH, true},
     {"volume_ratio", VSC_FIELD_VOLUME_RATIO, true},
     {"volume_ratio", VSC_FIELD_GROUP_RATIO, true},  // on the nodes, beside the elements' own
+    {"strain_fiber", VSC_FIELD_STRAIN_FIBER, false},
+    {"strain", VSC_FIELD_STRAIN, false},
+    {"principal_strains", VSC_FIELD_PRINCIPAL_STRAINS, false},
+    {"principal_strain_axis", VSC_FIELD_PRINCIPAL_STRAIN_AXIS, false},
+    {"stress_fiber", VSC_FIELD_STRESS_FIBER, false},
+    {"stress", VSC_FIELD_STRESS, false},
+    {"von_mises", VSC_FIELD_VON_MISES, false},
+    {"principal_stresses", VSC_FIELD_PRINCIPAL_STRESSES, false},
+    {"principal_stress_axis", VSC_FIELD_PRINCIPAL_STRESS_AXIS, false},
+    {"helix_angle", VSC_FIELD_HELIX_ANGLE, false},
 };
 enum { FIELDS = sizeof known_fields / sizeof known_fields[0] };
 
@@ -34,6 +45,28 @@ static bool is_wanted(const vsc_output_def *output, const char *name, bool by_de
   for (size_t k = 0; k < output->array_count; k++)
     if (strcmp(output->arrays[k], name) == 0) return true;
   return false;
+}
+
+vsc_status vsc_frames_check(const vsc_problem *problem, vsc_error *error)
+{
+  for (int k = 0; k < FIELDS; k++) {
+    vsc_error found;
+    if (!is_wanted(&problem->scene->output, known_fields[k].name, known_fields[k].by_default, false))
+      continue;
+    const vsc_status status = vsc_field_check(problem->model, known_fields[k].field, &found);
+    if (status != VSC_OK)
+      return vsc_fail(error, status, "output.arrays: %s: %s", known_fields[k].name, found.text);
+  }
+  return VSC_OK;
+}
+
+// The line that helix angles are seen from.
+static void read_helix_angle(const vsc_job *job, double *values)
+{
+  const vsc_scene *scene = job->problem->scene;
+  const double *axis =
+      vsc_norm(scene->output.axis) > 0 ? scene->output.axis : scene->fibers.long_axis;
+  vsc_read_helix_angle(job->problem->model, job->state, scene->output.centre, axis, values);
 }
 
 static double *region_values(const vsc_problem *problem)
@@ -60,7 +93,10 @@ static int read_fields(vsc_job *job, bool first_frame, vsc_vtk_array *arrays)
     const int components = vsc_field_components(field);
     double *values;
     if (!VSC_NEW(values, components * (on_nodes ? model->node_count : model->element_count))) return -1;
-    vsc_read_field(model, job->state, field, values);
+    if (field == VSC_FIELD_HELIX_ANGLE)
+      read_helix_angle(job, values);
+    else
+      vsc_read_field(model, job->state, field, values);
     arrays[count++] =
         (vsc_vtk_array){known_fields[k].name, components, values,
                         on_nodes ? VSC_ON_NODES : VSC_ON_ELEMENTS, false};

@@ -28,6 +28,9 @@ typedef struct vsc_job {
 // DIRECTORY/what, or DIRECTORY/NAME.what when `what` begins with a dot.
 void vsc_job_path(const vsc_job *job, const char *what, char path[VSC_PATH]);
 
+// VSC_INPUT when the scene asks for an array that its model does not have.
+vsc_status vsc_frames_check(const vsc_problem *problem, vsc_error *error);
+
 // Writes the current state as a VTU frame and adds it to the PVD.
 vsc_status vsc_job_write_frame(vsc_job *job, vsc_error *error);
 

@@ -7,6 +7,7 @@
 
 #include "base/mem.h"
 #include "io/vtk.h"
+#include "run/job.h"
 
 double vsc_wall_seconds(void)
 {
@@ -178,6 +179,7 @@ vsc_status vsc_problem_load(const char *file, const char *const *settings, size_
         file,
         vsc_model_build(made->mesh, made->axes, &made->scene->definition, &made->model, error),
         error);
+  if (status == VSC_OK) status = vsc_in_scene(file, vsc_frames_check(made, error), error);
   if (status != VSC_OK) {
     vsc_problem_free(made);
     return status;
