@@ -259,12 +259,38 @@ static void settings_replace_and_add(void **state)
   vsc_scene_free(scene);
 }
 
+// Points come with every bit and go; a reach of 0 is written as the word that stands for it.
+static void points_are_read_and_written(void **state)
+{
+  (void)state;
+  vsc_error error = {.text = ""};
+  const char *const settings[] = {"output.points=[{name: p0, at: [25 mm, 3 cm, -0.1 mm]}]",
+                                  "output.points[1]={name: p1, at: [0 mm, 1 mm, 2 mm], reach: 20 um}"};
+  scratch_text("scene.yaml", minimal);
+  vsc_scene *scene = read_good("scene.yaml", settings, 2);
+  assert_int_equal(vsc_scene_write(scene, scratch("resolved.yaml"), &error), VSC_OK);
+  vsc_scene *again = read_good("resolved.yaml", NULL, 0);
+  for (int k = 0; k < 2; k++) {
+    const vsc_output_def *output = k == 0 ? &scene->output : &again->output;
+    assert_int_equal(output->point_count, 2);
+    assert_string_equal(output->points[0].name, "p0");
+    assert_close(output->points[0].at[1], 30, 1e-15, 0);
+    assert_true(output->points[0].at[2] == -0.1);
+    assert_true(output->points[0].reach == 0);
+    assert_string_equal(output->points[1].name, "p1");
+    assert_close(output->points[1].reach, 0.02, 1e-14, 0);
+  }
+  vsc_scene_free(scene);
+  vsc_scene_free(again);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_key_arrives),
       cmocka_unit_test(absent_keys_take_the_defaults),
       cmocka_unit_test(a_written_scene_reads_back),
+      cmocka_unit_test(points_are_read_and_written),
       cmocka_unit_test(written_numbers_keep_every_bit),
       cmocka_unit_test(an_unwritable_place_is_said),
       cmocka_unit_test(the_template_is_a_scene),

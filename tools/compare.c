@@ -1,165 +1,75 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `viscera compare`: how far apart two meshes or two series are, array by array.
+// `viscera compare`: how far apart results are: two meshes or series array by array, a series of runs
+// from coarse to fine, curves over time.
 #include <getopt.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/mem.h"
-#include "io/pvd.h"
-#include "io/vtk.h"
+#include "tools/compare_fields.h"
+#include "tools/compare_order.h"
+#include "tools/compare_signals.h"
+#include "tools/results.h"
 #include "tools/verbs.h"
 
-enum { DIFFERENT = 1, PATH = 4096 };
+enum { DIFFERENT = 1 };
 static const double SAME_TIME = 1e-9;  // s
 
-// The differences d = a - b of one array, summed up over all its values and frames:
-// RMS = sqrt(sum d^2 / n), relative L2 = sqrt(sum d^2) / sqrt(sum b^2).
-typedef struct norms {
-  char name[VSC_NAME];
-  const char *where;  // "points", "elements" or "triangles"
-  double largest;     // max |d|
-  double squares;     // sum d^2
-  double reference;   // sum b^2
-  size_t values;      // n
-} norms;
+typedef enum mode { FIELDS, ORDER, SIGNALS } mode;
 
-typedef struct comparison {
-  size_t count, room;
-  norms *arrays;   // room, owned; count used
-  char note[512];  // arrays that only one side has
-} comparison;
+typedef struct wish {
+  mode mode;
+  double tolerance;  // of a relative L2
+  double reach;      // mm; 0: half an element
+  bool interpolate, frames;
+  double share;      // of times within a band
+  size_t pair_count;
+  vsc_curve_pair pairs[VSC_MOST_WANTED];
+  vsc_order_wish order;
+} wish;
 
 static void print_help(void)
 {
   puts(
       "Usage: viscera compare [OPTION]... A B\n"
-      "Error norms of the arrays that A and B have in common: two meshes (.vtu, .vtk) or\n"
-      "two series (.pvd), of which the frames at equal times are compared.\n\n"
+      "       viscera compare --order [OPTION]... COARSE MIDDLE FINE...\n"
+      "       viscera compare --signals [OPTION]... RUN REFERENCE.csv\n"
+      "Error norms of the arrays that A and B have in common: two meshes (.vtu, .vtk), two\n"
+      "series (.pvd) or two folders that `viscera run` made, of which the frames at equal\n"
+      "times are compared. On different meshes B's arrays are interpolated at A's nodes, and\n"
+      "A's elements take the values of those of B in which their centres lie, all at rest.\n\n"
       "  max abs      largest |a - b|\n"
       "  RMS          root of the mean of (a - b)^2\n"
-      "  relative L2  |a - b|_2 / |b|_2: B is the reference\n\n"
+      "  relative L2  |a - b|_2 / |b|_2: B is the reference\n"
+      "  by volume    the same with each value weighted by the tissue it stands for\n\n"
       "  -t, --tolerance X  exit code 1 when a relative L2 is above X, or when a frame of one\n"
       "                     series is missing in the other; else 0\n"
+      "      --frames       the norms of each frame too\n"
+      "      --reach MM     how far places of A may lie outside B, whose nearest place is\n"
+      "                     taken; others are left out and counted [half B's elements]\n"
+      "      --interpolate  also on meshes of the same connectivity\n"
       "  -h, --help         this text\n\n"
-      "Meshes with different counts can't be compared: exit code 2.\n\n"
+      "--order: the signals at the end of runs on finer and finer meshes or with smaller and\n"
+      "smaller steps: observed order, extrapolated value, uncertainty; and the errors of the\n"
+      "last frames against the finest run.\n"
+      "      --signal NAME  a column of signals.csv, again for more [cavities and points]\n"
+      "      --sizes H,H,H  sizes of the runs [(volume/elements)^(1/3) of their meshes; on one\n"
+      "                     mesh their steps]\n\n"
+      "--signals: columns of RUN (a folder or a signals.csv) against those of a table; the\n"
+      "first column of both is the time. Tolerance: of all columns together.\n"
+      "      --column A=B[,LOW,HIGH]  which, again for more; LOW and HIGH are the columns of a\n"
+      "                               band\n"
+      "      --within SHARE           exit code 1 when less than this part of the times, 0 to\n"
+      "                               1, is within the bands\n\n"
       "Examples:\n"
       "  viscera compare old/beat.pvd new/beat.pvd\n"
-      "  viscera compare --tolerance 1e-6 result.vtu reference.vtu");
-}
-
-static norms *find_or_add(comparison *all, const char *name, const char *where)
-{
-  for (size_t k = 0; k < all->count; k++)
-    if (strcmp(all->arrays[k].name, name) == 0 && strcmp(all->arrays[k].where, where) == 0)
-      return &all->arrays[k];
-  if (all->count == all->room) {
-    const size_t more = 2 * all->room + 16;
-    if (!vsc_grow((void **)&all->arrays, all->room, more, sizeof *all->arrays)) return NULL;
-    all->room = more;
-  }
-  norms *added = &all->arrays[all->count++];
-  *added = (norms){.where = where};
-  vsc_copy_name(added->name, name);
-  return added;
-}
-
-// A value that is not a number on one side only is an infinite difference.
-static double difference(double a, double b)
-{
-  if (a == b || (isnan(a) && isnan(b))) return 0;
-  const double d = fabs(a - b);
-  return isnan(d) ? INFINITY : d;
-}
-
-static vsc_status add(comparison *all, const char *name, const char *where, size_t count,
-                      const double *a, const double *b, vsc_error *error)
-{
-  norms *n = find_or_add(all, name, where);
-  if (n == NULL) return vsc_fail_memory(error, "the comparison");
-  for (size_t i = 0; i < count; i++) {
-    const double d = difference(a[i], b[i]);
-    n->largest = fmax(n->largest, d);
-    n->squares += d * d;
-    if (isfinite(b[i])) n->reference += b[i] * b[i];
-  }
-  n->values += count;
-  return VSC_OK;
-}
-
-static void note(comparison *all, const char *name, const char *why)
-{
-  const size_t used = strlen(all->note);
-  char text[2 * VSC_NAME];
-  snprintf(text, sizeof text, "%s (%s)", name, why);
-  if (strstr(all->note, text) != NULL) return;
-  snprintf(all->note + used, sizeof all->note - used, "%s%s", used > 0 ? ", " : "", text);
-}
-
-static vsc_status add_arrays(comparison *all, const char *where, const vsc_arrays *a,
-                             const vsc_arrays *b, vsc_error *error)
-{
-  for (size_t k = 0; k < a->count; k++) {
-    const vsc_array *first = &a->items[k];
-    const vsc_array *second = vsc_arrays_find(b, first->name);
-    if (second == NULL) {
-      note(all, first->name, "only in A");
-    } else if (second->components != first->components) {
-      note(all, first->name, "different numbers of components");
-    } else {
-      const size_t count = first->tuples * (size_t)first->components;
-      if (add(all, first->name, where, count, first->values, second->values, error) != VSC_OK)
-        return error->status;
-    }
-  }
-  for (size_t k = 0; k < b->count; k++)
-    if (vsc_arrays_find(a, b->items[k].name) == NULL) note(all, b->items[k].name, "only in B");
-  return VSC_OK;
-}
-
-// Elements of the same kinds on the same points, or else the mesh is another one.
-static bool same_corners(const vsc_mesh *a, const vsc_mesh *b)
-{
-  const size_t elements = a->element_count;
-  return memcmp(a->kinds, b->kinds, elements * sizeof *a->kinds) == 0 &&
-         memcmp(a->corners, b->corners, a->start[elements] * sizeof *a->corners) == 0;
-}
-
-static bool same_triangles(const vsc_mesh *a, const vsc_mesh *b)
-{
-  return a->triangle_count == b->triangle_count &&
-         memcmp(a->triangles, b->triangles, 3 * a->triangle_count * sizeof *a->triangles) == 0;
-}
-
-static vsc_status add_meshes(comparison *all, const char *file_a, const char *file_b,
-                             vsc_error *error)
-{
-  vsc_mesh *a = NULL, *b = NULL;
-  vsc_status status = vsc_vtk_read_mesh(file_a, 1, &a, error);
-  if (status == VSC_OK) status = vsc_vtk_read_mesh(file_b, 1, &b, error);
-  if (status == VSC_OK && (a->node_count != b->node_count || a->element_count != b->element_count))
-    status =
-        vsc_fail(error, VSC_INPUT,
-                 "%s has %zu points and %zu elements, %s has %zu and %zu: only results on the same "
-                 "mesh can be compared",
-                 file_a, a->node_count, a->element_count, file_b, b->node_count, b->element_count);
-  if (status == VSC_OK && !same_corners(a, b))
-    note(all, "elements", "joined to other points or in another order");
-  const bool triangles = status == VSC_OK && same_triangles(a, b);
-  if (status == VSC_OK && !triangles) note(all, "triangles", "not the same");
-  if (status == VSC_OK)
-    status = add(all, "(positions)", "points", 3 * a->node_count, a->nodes, b->nodes, error);
-  if (status == VSC_OK) status = add_arrays(all, "points", &a->node_data, &b->node_data, error);
-  if (status == VSC_OK && a->element_count > 0)
-    status = add_arrays(all, "elements", &a->element_data, &b->element_data, error);
-  if (status == VSC_OK && triangles)
-    status = add_arrays(all, "triangles", &a->triangle_data, &b->triangle_data, error);
-  vsc_mesh_free(a);
-  vsc_mesh_free(b);
-  return status;
+      "  viscera compare --tolerance 1e-6 result.vtu reference.vtu\n"
+      "  viscera compare --order --signal cavity_endo coarse middle fine\n"
+      "  viscera compare --signals --column point_p0_ux=p0_ux_mean_mm run teams.csv");
 }
 
 static vsc_status open_series(const char *file, vsc_pvd **series, vsc_error *error)
@@ -193,20 +103,63 @@ static size_t print_missing(const vsc_pvd *have, const vsc_pvd *lack, const char
   return missing;
 }
 
-static vsc_status add_frames(comparison *all, const char *file_a, const vsc_pvd *a,
-                             const char *file_b, const vsc_pvd *b, size_t *missing,
-                             vsc_error *error)
+static bool print_norms(const vsc_comparison *all, double tolerance)
+{
+  bool within = true;
+  printf("%-24s %-9s %13s %13s %13s %13s %13s\n", "array", "on", "max abs", "RMS", "relative L2",
+         "RMS", "relative L2");
+  printf("%-24s %-9s %13s %13s %13s %13s %13s\n", "", "", "", "", "", "by volume", "by volume");
+  for (size_t k = 0; k < all->count; k++) {
+    const vsc_norms *n = &all->arrays[k];
+    const double relative = vsc_norms_relative(n, false);
+    const bool above = !(relative <= tolerance);
+    printf("%-24s %-9s %13.6g %13.6g %13.6g", n->name, n->where, n->largest, vsc_norms_rms(n, false),
+           relative);
+    if (n->volume > 0)
+      printf(" %13.6g %13.6g", vsc_norms_rms(n, true), vsc_norms_relative(n, true));
+    else
+      printf(" %13s %13s", "-", "-");
+    puts(above ? "  above the tolerance" : "");
+    within = within && !above;
+  }
+  return within;
+}
+
+static void print_places(const vsc_pair *pair)
+{
+  if (pair->a == NULL || pair->same) return;
+  printf("B's values interpolated at A's nodes: %zu of %zu outside B, their nearest place taken, %zu "
+         "further than %.4g mm left out",
+         pair->outside, pair->a->node_count, pair->left_out, pair->limit);
+  if (pair->outside + pair->left_out > 0)
+    printf("; the furthest by %.4g mm, at (%.6g, %.6g, %.6g) mm", pair->furthest, pair->furthest_at[0],
+           pair->furthest_at[1], pair->furthest_at[2]);
+  putchar('\n');
+}
+
+static vsc_status add_frames(const wish *wish, vsc_comparison *all, vsc_pair *pair,
+                             const char *file_a, const vsc_pvd *a, const char *file_b,
+                             const vsc_pvd *b, size_t *missing, vsc_error *error)
 {
   size_t common = 0;
-  for (size_t f = 0; f < vsc_pvd_count(a); f++) {
-    char path_a[PATH], path_b[PATH];
+  vsc_status status = VSC_OK;
+  for (size_t f = 0; f < vsc_pvd_count(a) && status == VSC_OK; f++) {
+    char path_a[VSC_RESULT_PATH], path_b[VSC_RESULT_PATH];
     const size_t other = frame_at(b, vsc_pvd_time(a, f));
     if (other == vsc_pvd_count(b)) continue;
     vsc_pvd_frame_path(file_a, a, f, path_a, sizeof path_a);
     vsc_pvd_frame_path(file_b, b, other, path_b, sizeof path_b);
-    if (add_meshes(all, path_a, path_b, error) != VSC_OK) return error->status;
+    vsc_comparison one = {0};
+    status = vsc_compare_files(&one, pair, path_a, path_b, error);
+    if (status == VSC_OK && wish->frames) {
+      printf("frame at %g s\n", vsc_pvd_time(a, f));
+      print_norms(&one, INFINITY);
+    }
+    if (status == VSC_OK) status = vsc_comparison_merge(all, &one, error);
+    vsc_comparison_free(&one);
     common++;
   }
+  if (status != VSC_OK) return status;
   if (common == 0)
     return vsc_fail(error, VSC_INPUT, "%s and %s have no frame at the same time", file_a, file_b);
   printf("frames at equal times: %zu\n", common);
@@ -214,38 +167,17 @@ static vsc_status add_frames(comparison *all, const char *file_a, const vsc_pvd 
   return VSC_OK;
 }
 
-static vsc_status add_series(comparison *all, const char *file_a, const char *file_b,
-                             size_t *missing, vsc_error *error)
+static vsc_status add_series(const wish *wish, vsc_comparison *all, vsc_pair *pair,
+                             const char *file_a, const char *file_b, size_t *missing,
+                             vsc_error *error)
 {
   vsc_pvd *a = NULL, *b = NULL;
   vsc_status status = open_series(file_a, &a, error);
   if (status == VSC_OK) status = open_series(file_b, &b, error);
-  if (status == VSC_OK) status = add_frames(all, file_a, a, file_b, b, missing, error);
+  if (status == VSC_OK) status = add_frames(wish, all, pair, file_a, a, file_b, b, missing, error);
   vsc_pvd_free(a);
   vsc_pvd_free(b);
   return status;
-}
-
-static double relative(const norms *n)
-{
-  if (n->squares == 0) return 0;
-  return n->reference > 0 ? sqrt(n->squares / n->reference) : INFINITY;
-}
-
-static bool print_norms(const comparison *all, double tolerance)
-{
-  bool within = true;
-  printf("%-24s %-7s %13s %13s %13s\n", "array", "on", "max abs", "RMS", "relative L2");
-  for (size_t k = 0; k < all->count; k++) {
-    const norms *n = &all->arrays[k];
-    const double rms = n->values > 0 ? sqrt(n->squares / (double)n->values) : 0;
-    const bool above = !(relative(n) <= tolerance);
-    printf("%-24s %-7s %13.6g %13.6g %13.6g%s\n", n->name, n->where, n->largest, rms, relative(n),
-           above ? "  above the tolerance" : "");
-    within = within && !above;
-  }
-  if (all->note[0] != '\0') printf("not compared: %s\n", all->note);
-  return within;
 }
 
 static bool is_series(const char *file)
@@ -254,53 +186,159 @@ static bool is_series(const char *file)
   return length > 4 && strcmp(file + length - 4, ".pvd") == 0;
 }
 
-static int compare(const char *a, const char *b, double tolerance)
+// A folder's series, or the file itself.
+static vsc_status resolve(const char *given, char file[VSC_RESULT_PATH], vsc_error *error)
+{
+  struct stat facts;
+  vsc_results results;
+  if (strlen(given) >= VSC_RESULT_PATH)
+    return vsc_fail(error, VSC_INPUT, "%.60s...: the file's name is too long", given);
+  snprintf(file, VSC_RESULT_PATH, "%s", given);
+  if (stat(given, &facts) != 0 || !S_ISDIR(facts.st_mode)) return VSC_OK;
+  const vsc_status status = vsc_results_open(given, &results, error);
+  if (status != VSC_OK) return status;
+  memcpy(file, results.pvd, VSC_RESULT_PATH);
+  vsc_results_close(&results);
+  return VSC_OK;
+}
+
+static vsc_status compare_files(const wish *wish, char *const given[2], vsc_comparison *all,
+                                vsc_pair *pair, size_t *missing, vsc_error *error)
+{
+  char a[VSC_RESULT_PATH], b[VSC_RESULT_PATH];
+  vsc_status status = resolve(given[0], a, error);
+  if (status == VSC_OK) status = resolve(given[1], b, error);
+  if (status != VSC_OK) return status;
+  if (is_series(a) != is_series(b))
+    return vsc_fail(error, VSC_INPUT,
+                    "%s is a series and %s is not: give two series or two meshes",
+                    is_series(a) ? a : b, is_series(a) ? b : a);
+  if (is_series(a)) return add_series(wish, all, pair, a, b, missing, error);
+  return vsc_compare_files(all, pair, a, b, error);
+}
+
+static int compare_fields(const wish *wish, char *const given[2])
 {
   vsc_error error;
-  comparison all = {0};
+  vsc_comparison all = {0};
+  vsc_pair pair = {.reach = wish->reach, .interpolate = wish->interpolate};
   size_t missing = 0;
-  vsc_status status;
-  if (is_series(a) != is_series(b))
-    status =
-        vsc_fail(&error, VSC_INPUT, "%s is a series and %s is not: give two series or two meshes",
-                 is_series(a) ? a : b, is_series(a) ? b : a);
-  else if (is_series(a))
-    status = add_series(&all, a, b, &missing, &error);
-  else
-    status = add_meshes(&all, a, b, &error);
-  int code = status;
-  if (status == VSC_OK) {
-    const bool within = print_norms(&all, tolerance);
-    if (!within || (missing > 0 && isfinite(tolerance))) code = DIFFERENT;
+  int code = compare_files(wish, given, &all, &pair, &missing, &error);
+  if (code == VSC_OK) {
+    print_places(&pair);
+    const bool within = print_norms(&all, wish->tolerance);
+    if (all.note[0] != '\0') printf("not compared: %s\n", all.note);
+    if (!within || (missing > 0 && isfinite(wish->tolerance))) code = DIFFERENT;
   } else {
     fflush(stdout);
-    fprintf(stderr, "viscera: %s\n", error.text);
+    fprintf(stderr, "viscera: compare: %s\n", error.text);
   }
-  vsc_free(all.arrays);
+  vsc_comparison_free(&all);
+  vsc_pair_free(&pair);
   return code;
+}
+
+static bool read_number(const char *text, double *value)
+{
+  char *end;
+  *value = strtod(text, &end);
+  return end != text && *end == '\0' && *value >= 0;
+}
+
+static bool read_sizes(const char *text, vsc_order_wish *order)
+{
+  order->size_count = 0;
+  while (order->size_count < VSC_MOST_RUNS) {
+    char *end;
+    const double size = strtod(text, &end);
+    if (end == text || !(size > 0) || (*end != ',' && *end != '\0')) return false;
+    order->sizes[order->size_count++] = size;
+    if (*end == '\0') return true;
+    text = end + 1;
+  }
+  return false;
+}
+
+// Options without a letter of their own.
+enum { FRAMES = 256, REACH, INTERPOLATE, ORDERS, SIGNAL, SIZES, CURVES, COLUMN, WITHIN };
+
+// Takes one option; false, with *expected, when its value does not fit.
+static bool take(int option, wish *wish, const char **expected)
+{
+  *expected = "a number >= 0";
+  if (option == 't') return read_number(optarg, &wish->tolerance);
+  if (option == REACH) return read_number(optarg, &wish->reach);
+  if (option == WITHIN) return read_number(optarg, &wish->share);
+  if (option == FRAMES) wish->frames = true;
+  if (option == INTERPOLATE) wish->interpolate = true;
+  if (option == ORDERS) wish->mode = ORDER;
+  if (option == CURVES) wish->mode = SIGNALS;
+  *expected = "as many sizes as runs, such as 4,2,1";
+  if (option == SIZES) return read_sizes(optarg, &wish->order);
+  *expected = "COLUMN=REFERENCE or COLUMN=REFERENCE,LOW,HIGH, 64 at most";
+  if (option == COLUMN)
+    return wish->pair_count < VSC_MOST_WANTED &&
+           vsc_curve_pair_read(optarg, &wish->pairs[wish->pair_count++], NULL) == VSC_OK;
+  *expected = "a column of signals.csv, 64 at most";
+  if (option != SIGNAL) return true;
+  if (wish->order.signal_count == VSC_MOST_WANTED) return false;
+  vsc_copy_name(wish->order.signals[wish->order.signal_count++], optarg);
+  return true;
+}
+
+static const struct option options[] = {{"help", no_argument, NULL, 'h'},
+                                        {"tolerance", required_argument, NULL, 't'},
+                                        {"frames", no_argument, NULL, FRAMES},
+                                        {"reach", required_argument, NULL, REACH},
+                                        {"interpolate", no_argument, NULL, INTERPOLATE},
+                                        {"order", no_argument, NULL, ORDERS},
+                                        {"signal", required_argument, NULL, SIGNAL},
+                                        {"sizes", required_argument, NULL, SIZES},
+                                        {"signals", no_argument, NULL, CURVES},
+                                        {"column", required_argument, NULL, COLUMN},
+                                        {"within", required_argument, NULL, WITHIN},
+                                        {0}};
+
+static int compare(wish *wish, int count, char **given)
+{
+  vsc_order_wish *order = &wish->order;
+  if (wish->mode == ORDER) {
+    if (count < 3 || count > VSC_MOST_RUNS || (order->size_count > 0 && order->size_count != (size_t)count)) {
+      fprintf(stderr, "viscera: compare: --order: give 3 to %d runs, and as many --sizes if any\n",
+              VSC_MOST_RUNS);
+      return VSC_INPUT;
+    }
+    order->reach = wish->reach;
+    for (; order->run_count < (size_t)count; order->run_count++)
+      order->runs[order->run_count] = given[order->run_count];
+    return vsc_compare_order(order);
+  }
+  if (count != 2 || (wish->mode == SIGNALS && wish->pair_count == 0)) {
+    fprintf(stderr, "viscera: compare: give two files, A and B%s; `viscera compare --help` tells more\n",
+            wish->mode == SIGNALS ? ", and --column" : "");
+    return VSC_INPUT;
+  }
+  if (wish->mode == SIGNALS)
+    return vsc_compare_signals(given[0], given[1], wish->pair_count, wish->pairs, wish->tolerance,
+                               wish->share);
+  return compare_fields(wish, given);
 }
 
 int vsc_verb_compare(int argc, char **argv)
 {
-  static const struct option options[] = {
-      {"help", no_argument, NULL, 'h'}, {"tolerance", required_argument, NULL, 't'}, {0}};
-  double tolerance = INFINITY;
-  for (int option; (option = getopt_long(argc, argv, "ht:", options, NULL)) != -1;) {
+  static wish wish;
+  wish = (struct wish){.tolerance = INFINITY};
+  for (int option, index = 0; (option = getopt_long(argc, argv, "ht:", options, &index)) != -1;) {
+    const char *expected;
     if (option == 'h') {
       print_help();
       return VSC_OK;
     }
-    char *end = NULL;
-    if (option == 't') tolerance = strtod(optarg, &end);
-    if (option == 't' && end != optarg && *end == '\0' && tolerance >= 0) continue;
-    if (option == 't')
-      fprintf(stderr, "viscera: compare: --tolerance %s: expected a number >= 0\n", optarg);
+    if (option == '?') return VSC_INPUT;
+    if (take(option, &wish, &expected)) continue;
+    fprintf(stderr, "viscera: compare: --%s %s: expected %s\n",
+            option == 't' ? "tolerance" : options[index].name, optarg, expected);
     return VSC_INPUT;
   }
-  if (argc - optind != 2) {
-    fputs("viscera: compare: give two files, A and B; `viscera compare --help` tells more\n",
-          stderr);
-    return VSC_INPUT;
-  }
-  return compare(argv[optind], argv[optind + 1], tolerance);
+  return compare(&wish, argc - optind, argv + optind);
 }

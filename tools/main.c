@@ -26,7 +26,7 @@ static const verb verbs[] = {
     {"check", vsc_verb_check, true,
      "say what a scene would do, what it would cost, what looks odd"},
     {"info", vsc_verb_info, false, "say what meshes, images, series, checkpoints or scenes hold"},
-    {"compare", vsc_verb_compare, false, "error norms between two meshes or two series"},
+    {"compare", vsc_verb_compare, false, "error norms between results, orders of convergence, curves"},
     {"measure", vsc_verb_measure, false, "how a slice of the tissue has moved, turned, changed size"},
     {"schema", vsc_verb_schema, false, "print a commented template of everything a scene can say"},
     {"generate", vsc_verb_generate, false, "make the meshes and angle maps that ship with viscera"},

@@ -132,5 +132,6 @@ void vsc_scene_free(vsc_scene *scene)
   if (scene == NULL) return;
   vsc_definition_free(&scene->definition);
   vsc_free(scene->curved);
+  vsc_free(scene->output.points);
   vsc_free(scene);
 }

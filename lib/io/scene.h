@@ -11,7 +11,15 @@
 #include "model/definition.h"
 #include "model/fiber_def.h"
 
-enum { VSC_OUTPUT_ARRAYS = 16, VSC_MOST_PRESSURES = 52 };  // of a scene
+enum { VSC_OUTPUT_ARRAYS = 16, VSC_MOST_PRESSURES = 52, VSC_OUTPUT_POINTS = 64 };  // of a scene
+
+// A material point whose way is a signal.
+typedef struct vsc_point_def {
+  char name[VSC_NAME];
+  double at[3];  // mm, where it is at rest
+  double reach;  // mm: how far outside the body `at` may lie; the nearest place of the body is watched
+                 // then. Default 0: a tenth of the elements' size
+} vsc_point_def;
 
 // What is written, and how often.
 typedef struct vsc_output_def {
@@ -23,6 +31,8 @@ typedef struct vsc_output_def {
                            // implicit and equilibrium as the frames
   size_t cavity_count;     // surfaces whose enclosed (capped) volume is a signal
   char cavities[VSC_OUTPUT_ARRAYS][VSC_NAME];
+  size_t point_count;      // observed points
+  vsc_point_def *points;   // owned
   double checkpoint_interval;  // ms between checkpoints; 0: only at the end; default 0
 } vsc_output_def;
 

@@ -142,6 +142,33 @@ static vsc_status check_interval(vsc_reading *reading, const char *key, double v
   return VSC_OK;
 }
 
+// Names are columns of a table: none twice, nothing in them that would end a cell.
+static vsc_status check_point(vsc_reading *reading, const vsc_output_def *output, size_t i)
+{
+  const vsc_point_def *point = &output->points[i];
+  vsc_enter(reading, "output.points");
+  const size_t list = vsc_enter_item(reading, i);
+  if (output->point_count > VSC_OUTPUT_POINTS) {
+    vsc_leave(reading, list);
+    return vsc_reading_fail(reading, "%zu of them; expected at most %d", output->point_count,
+                            VSC_OUTPUT_POINTS);
+  }
+  const size_t length = vsc_enter(reading, "name");
+  if (point->name[0] == '\0' || strpbrk(point->name, ",[]\"\n\r") != NULL)
+    return vsc_reading_fail(reading, "\"%s\"; expected a name without commas, brackets and quotes",
+                            point->name);
+  for (size_t k = 0; k < i; k++)
+    if (strcmp(output->points[k].name, point->name) == 0)
+      return vsc_reading_fail(reading, "\"%s\" names another point too; choose another name",
+                              point->name);
+  vsc_leave(reading, length);
+  vsc_enter(reading, "reach");
+  if (!(point->reach >= 0))
+    return vsc_reading_fail(reading, "%g mm; expected a length from zero on, or auto", point->reach);
+  vsc_leave(reading, 0);
+  return VSC_OK;
+}
+
 static vsc_status check_output(vsc_reading *reading, const vsc_scene *scene)
 {
   const vsc_output_def *output = &scene->output;
@@ -156,6 +183,8 @@ static vsc_status check_output(vsc_reading *reading, const vsc_scene *scene)
     status = need_surface(reading, &scene->definition, output->cavities[i]);
     if (status == VSC_OK) vsc_leave(reading, 0);
   }
+  for (size_t i = 0; i < output->point_count && status == VSC_OK; i++)
+    status = check_point(reading, output, i);
   return status;
 }
 

@@ -93,6 +93,22 @@ static const vsc_word frame_arrays[] = {
     {"region", 0},       {NULL, 0},
 };
 
+static const vsc_row point_rows[] = {
+    {"name", NAME(vsc_point_def, name), .needed = VSC_ALWAYS, .text = "p0",
+     .meaning = "its signals are point_p0_ux and so on"},
+    {"at", VECTOR(vsc_point_def, at, VSC_LENGTH), .needed = VSC_ALWAYS,
+     .text = "[25 mm, 30 mm, 0 mm]", .meaning = "where it is at rest"},
+    {"reach", QUANTITY(vsc_point_def, reach, VSC_LENGTH), .zero_word = "auto", .text = "auto",
+     .meaning = "how far outside the body that may be; auto: a tenth of the elements' size"},
+};
+
+static void start_point(void *target)
+{
+  *(vsc_point_def *)target = (vsc_point_def){.name = ""};
+}
+
+GROUP(static, point, -1, .size = sizeof(vsc_point_def), .start = start_point);
+
 static const vsc_row output_rows[] = {
     {"frames", QUANTITY(vsc_output_def, frame_interval, VSC_TIME), .text = "10 ms",
      .meaning = "between VTU frames; default of equilibria: the end"},
@@ -108,6 +124,8 @@ static const vsc_row output_rows[] = {
     {"cavities", .kind = VSC_ROW_NAMES, LIST_AT(vsc_output_def, cavities, cavity_count),
      .count = VSC_OUTPUT_ARRAYS, .text = "[endo]",
      .meaning = "surfaces whose (capped) volume is a signal"},
+    {"points", PARTS(vsc_output_def, points, point_count, point), .commented = true,
+     .meaning = "of the tissue, whose displacement and position are signals"},
     {"checkpoint", QUANTITY(vsc_output_def, checkpoint_interval, VSC_TIME), .text = "0 ms",
      .meaning = "between checkpoints; 0 ms: only at the end"},
 };

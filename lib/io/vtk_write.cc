@@ -19,7 +19,6 @@
 #include <vtkPolyData.h>
 #include <vtkTypeInt32Array.h>
 #include <vtkTypeInt64Array.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLImageDataWriter.h>
 #include <vtkXMLPolyDataWriter.h>
@@ -30,11 +29,13 @@ extern "C" {
 #include "io/vtk.h"
 #include "io/vtk_polydata.h"
 }
+#include "io/vtk_cells.hh"
 #include "io/vtk_quiet.hh"
 
 namespace {
 
 using vsc::guarded;
+using vsc::set_cells;
 using vsc::silence;
 
 // zlib's quickest level: a frame's numbers are hardly smaller at the higher ones, which take
@@ -76,48 +77,6 @@ vtkSmartPointer<vtkDataArray> make_real(const char *name, int components, size_t
   return double_precision
            ? make_array<vtkDoubleArray>(name, components, before, given, tuples, values)
            : make_array<vtkFloatArray>(name, components, before, given, tuples, values);
-}
-
-constexpr VTKCellType CELL_TYPES[VSC_CELLS] = {VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE, VTK_PYRAMID,
-                                               VTK_QUADRATIC_TETRA};
-
-// VTK's corner `i` of an element: a wedge's triangles are exchanged.
-uint32_t vtk_corner(const vsc_mesh *mesh, size_t element, size_t i)
-{
-  return vsc_mesh_corners(mesh, element)[mesh->kinds[element] == VSC_WEDGE ? (i + 3) % 6 : i];
-}
-
-// The elements followed by the triangles, as cells.
-template <typename Array> void set_cells(vtkUnstructuredGrid *grid, const vsc_mesh *mesh)
-{
-  const size_t elements = mesh->element_count, triangles = mesh->triangle_count;
-  const size_t corners = mesh->start[elements];
-  const bool curved = mesh->triangle_mid != nullptr;
-  const size_t width = curved ? 6 : 3;  // points of a triangle
-  vtkNew<Array> offsets, points;
-  vtkNew<vtkUnsignedCharArray> types;
-  offsets->SetNumberOfValues((vtkIdType)(elements + triangles + 1));
-  points->SetNumberOfValues((vtkIdType)(corners + width * triangles));
-  types->SetNumberOfValues((vtkIdType)(elements + triangles));
-  using number = typename Array::ValueType;
-  number *start = offsets->GetPointer(0), *point = points->GetPointer(0);
-  for (size_t i = 0; i <= elements; i++) start[i] = (number)mesh->start[i];
-  for (size_t i = 0; i < triangles; i++)
-    start[elements + i + 1] = (number)(corners + width * (i + 1));
-  for (size_t i = 0; i < elements + triangles; i++)
-    types->SetValue((vtkIdType)i, (unsigned char)(i < elements ? CELL_TYPES[mesh->kinds[i]]
-                                                  : curved     ? VTK_QUADRATIC_TRIANGLE
-                                                               : VTK_TRIANGLE));
-  for (size_t e = 0; e < elements; e++)
-    for (size_t i = 0; i < mesh->start[e + 1] - mesh->start[e]; i++)
-      *point++ = (number)vtk_corner(mesh, e, i);
-  for (size_t t = 0; t < triangles; t++) {
-    for (size_t i = 0; i < 3; i++) *point++ = (number)mesh->triangles[3 * t + i];
-    for (size_t i = 0; i < 3 && curved; i++) *point++ = (number)mesh->triangle_mid[3 * t + i];
-  }
-  vtkNew<vtkCellArray> cells;
-  cells->SetData(offsets, points);
-  grid->SetCells(types, cells);
 }
 
 // VTK's writer without the ranges that it stores beside inline arrays: readers, ParaView's too,

@@ -206,6 +206,13 @@ double vsc_mesh_element_volume(const vsc_mesh *mesh, size_t element)
   return volume / 6;
 }
 
+double vsc_mesh_element_size(const vsc_mesh *mesh)
+{
+  double volume = 0;
+  for (size_t e = 0; e < mesh->element_count; e++) volume += vsc_mesh_element_volume(mesh, e);
+  return cbrt(volume / (double)mesh->element_count);
+}
+
 void vsc_mesh_element_centre(const vsc_mesh *mesh, size_t element, double centre[3])
 {
   const uint32_t *corner = vsc_mesh_corners(mesh, element);

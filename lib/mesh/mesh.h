@@ -141,6 +141,9 @@ double vsc_mesh_jacobian(const vsc_mesh *mesh, size_t element, const vsc_cell_ru
 // the points of vsc_cell_rule_of, as a model has it.
 double vsc_mesh_element_volume(const vsc_mesh *mesh, size_t element);
 
+// The size of the elements: (volume/elements)^(1/3), mm; NAN of a surface.
+double vsc_mesh_element_size(const vsc_mesh *mesh);
+
 // The mean of an element's vertices, mm.
 void vsc_mesh_element_centre(const vsc_mesh *mesh, size_t element, double centre[3]);
 

@@ -98,6 +98,18 @@ static void say_supports(const vsc_problem *problem, FILE *out)
           problem->model->node_count);
 }
 
+static void say_points(const vsc_problem *problem, FILE *out)
+{
+  const vsc_output_def *output = &problem->scene->output;
+  for (size_t p = 0; p < output->point_count; p++) {
+    const vsc_place *place = &problem->points[p];
+    fprintf(out, "point      %s: in element %u", output->points[p].name,
+            problem->mesh->element_source[place->element]);
+    if (place->distance > 1e-9) fprintf(out, ", %.3g mm from where it was wanted", place->distance);
+    fputc('\n', out);
+  }
+}
+
 static void say_fibers(const vsc_problem *problem, FILE *out)
 {
   const vsc_fiber_report *f = &problem->fibers;
@@ -405,6 +417,7 @@ vsc_status vsc_check(const vsc_problem *problem, FILE *stream, int *warnings, vs
   for (size_t s = 0; s < model->surface_count; s++)
     say_surface(problem, &model->surfaces[s], stream);
   say_supports(problem, stream);
+  say_points(problem, stream);
   if (problem->mesh->element_count > 0) say_fibers(problem, stream);
   say_vessels(problem, stream);
   for (size_t m = 0; m < model->material_count; m++)

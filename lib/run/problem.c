@@ -122,6 +122,36 @@ static vsc_status make_vessels(vsc_problem *problem, vsc_error *error)
   return status == VSC_OK ? include_vessels(definition, error) : status;
 }
 
+static vsc_status find_points(vsc_problem *problem, vsc_error *error)
+{
+  const vsc_mesh *mesh = problem->mesh;
+  const vsc_output_def *output = &problem->scene->output;
+  if (output->point_count == 0) return VSC_OK;
+  if (mesh->element_count == 0)
+    return vsc_fail(error, VSC_INPUT,
+                    "output.points: points are observed within elements, and %s has none: remove them",
+                    problem->scene->mesh_file);
+  if (!VSC_NEW(problem->points, output->point_count))
+    return vsc_fail_memory(error, "the observed points");
+  const double size = vsc_mesh_element_size(mesh);
+  for (size_t k = 0; k < output->point_count; k++) {
+    const vsc_point_def *point = &output->points[k];
+    const double reach = point->reach > 0 ? point->reach : 0.1 * size;
+    vsc_place *place = &problem->points[k];
+    double nearest[3];
+    vsc_place_find(mesh, point->at, place);
+    vsc_place_value(mesh, place, 3, mesh->nodes, nearest);
+    if (place->distance > reach)
+      return vsc_fail(error, VSC_INPUT,
+                      "output.points[%zu]: %s at (%.6g, %.6g, %.6g) mm lies %.4g mm outside the body, "
+                      "further than %.4g mm; its nearest place is (%.6g, %.6g, %.6g) mm: take that, or "
+                      "give a reach",
+                      k, point->name, point->at[0], point->at[1], point->at[2], place->distance,
+                      reach, nearest[0], nearest[1], nearest[2]);
+  }
+  return VSC_OK;
+}
+
 vsc_status vsc_in_scene(const char *file, vsc_status status, vsc_error *error)
 {
   if (status == VSC_OK || error == NULL || strstr(error->text, file) != NULL) return status;
@@ -140,6 +170,7 @@ vsc_status vsc_problem_load(const char *file, const char *const *settings, size_
   if (status == VSC_OK)
     status = vsc_vtk_read_mesh(made->scene->mesh_file, made->scene->mesh_unit, &made->mesh, error);
   if (status == VSC_OK) status = shape_mesh(made, file, error);
+  if (status == VSC_OK) status = vsc_in_scene(file, find_points(made, error), error);
   if (status == VSC_OK) status = vsc_in_scene(file, make_fibers(made, error), error);
   if (status == VSC_OK) status = vsc_in_scene(file, make_vessels(made, error), error);
   if (status == VSC_OK)
@@ -162,6 +193,7 @@ void vsc_problem_free(vsc_problem *problem)
   vsc_model_free(problem->model);
   vsc_axes_free(problem->axes);
   vsc_free(problem->vessels);
+  vsc_free(problem->points);
   vsc_mesh_free(problem->mesh);
   vsc_scene_free(problem->scene);
   vsc_free(problem);

@@ -6,6 +6,7 @@
 #include "fibers/fibers.h"
 #include "fibers/vessels.h"
 #include "io/scene.h"
+#include "mesh/place.h"
 #include "model/model.h"
 
 typedef struct vsc_problem {
@@ -14,13 +15,15 @@ typedef struct vsc_problem {
   vsc_axes *axes;
   vsc_fiber_report fibers;  // where the axes came from
   vsc_vessel_report *vessels;  // of each of the scene's vessels
+  vsc_place *points;           // where each of the scene's output.points lies in the mesh
   vsc_model *model;
   double load_seconds;  // wall clock of reading and building
 } vsc_problem;
 
 // Reads the scene `file` with the `settings` (key=value, setting_count of them), its mesh and
 // fibres, and builds the model. Each tissue of law springs that lists no inclusions gets the scene's
-// vessels as inclusions, in problem->scene too. Every check that needs no time step is done. The caller owns
+// vessels as inclusions, in problem->scene too. Observed points are looked for in the mesh: VSC_INPUT for
+// one that lies further outside than its reach. Every check that needs no time step is done. The caller owns
 // *problem.
 vsc_status vsc_problem_load(const char *file, const char *const *settings, size_t setting_count,
                             vsc_problem **problem, vsc_error *error);

@@ -97,6 +97,29 @@ static void put_kept(const vsc_model *model, const vsc_state *state, vsc_watch *
   }
 }
 
+// Displacement and position of each observed point, sum_i N_i (x_i - X_i) and sum_i N_i x_i.
+static void put_points(const vsc_problem *problem, const vsc_state *state, vsc_watch *watch)
+{
+  const vsc_output_def *output = &problem->scene->output;
+  for (size_t p = 0; p < output->point_count; p++) {
+    const vsc_place *place = &problem->points[p];
+    double moved[3] = {0}, now[3] = {0};
+    for (int i = 0; i < vsc_mesh_kind(problem->mesh, place->element)->corners; i++) {
+      const size_t node = 4 * (size_t)watch->point_nodes[p][i];
+      for (size_t a = 0; a < 3; a++) {
+        now[a] += place->N[i] * state->x[node + a];
+        moved[a] += place->N[i] * (state->x[node + a] - problem->model->rest[node + a]);
+      }
+    }
+    char name[VSC_NAME + 16];
+    snprintf(name, sizeof name, "point_%s", output->points[p].name);
+    for (int a = 0; a < 3; a++)
+      put(watch, "mm", moved[a], name, ((const char *const[]){"_ux", "_uy", "_uz"})[a]);
+    for (int a = 0; a < 3; a++)
+      put(watch, "mm", now[a], name, ((const char *const[]){"_x", "_y", "_z"})[a]);
+  }
+}
+
 static void make_row(const vsc_problem *problem, vsc_state *state, vsc_watch *watch)
 {
   static const char *const axis[3] = {"x", "y", "z"};
@@ -131,6 +154,7 @@ static void make_row(const vsc_problem *problem, vsc_state *state, vsc_watch *wa
   for (int i = 0; i < 3; i++) put(watch, "mg m/s", t->momentum[i], "momentum_", axis[i]);
   for (int i = 0; i < 3; i++)
     put(watch, "mg mm m/s", t->angular_momentum[i], "angular_momentum_", axis[i]);
+  put_points(problem, state, watch);
 }
 
 static vsc_status make_cavities(const vsc_problem *problem, vsc_watch *watch, vsc_error *error)
@@ -160,11 +184,28 @@ static vsc_status make_cavities(const vsc_problem *problem, vsc_watch *watch, vs
   return status;
 }
 
+static vsc_status number_points(const vsc_problem *problem, vsc_watch *watch, vsc_error *error)
+{
+  const size_t count = problem->scene->output.point_count;
+  if (count == 0) return VSC_OK;
+  uint32_t *number = vsc_model_node_numbers(problem->model);
+  const bool made = number != NULL && VSC_NEW(watch->point_nodes, count);
+  for (size_t p = 0; p < count && made; p++) {
+    const size_t element = problem->points[p].element;
+    const uint32_t *corner = vsc_mesh_corners(problem->mesh, element);
+    for (int i = 0; i < vsc_mesh_kind(problem->mesh, element)->corners; i++)
+      watch->point_nodes[p][i] = number[corner[i]];
+  }
+  vsc_free(number);
+  return made ? VSC_OK : vsc_fail_memory(error, "observed points");
+}
+
 // Copies the header and the rows up to `keep_until` (ms) to a new file that takes the old one's
 // place.
 static vsc_status trim_rows(const char *file, double keep_until, vsc_error *error)
 {
-  char temporary[VSC_PATH + 8], line[16384];
+  char temporary[VSC_PATH + 8], *line = NULL;
+  size_t room = 0;
   snprintf(temporary, sizeof temporary, "%s.tmp", file);
   FILE *from = fopen(file, "r");
   if (from == NULL) return VSC_OK;
@@ -173,8 +214,9 @@ static vsc_status trim_rows(const char *file, double keep_until, vsc_error *erro
     fclose(from);
     return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", temporary, strerror(errno));
   }
-  for (size_t row = 0; fgets(line, sizeof line, from) != NULL; row++)
+  for (size_t row = 0; getline(&line, &room, from) > 0; row++)
     if (row == 0 || 1e3 * strtod(line, NULL) <= keep_until + 1e-6) fputs(line, to);
+  free(line);
   fclose(from);
   if (fclose(to) != 0 || rename(temporary, file) != 0)
     return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", file, strerror(errno));
@@ -221,6 +263,7 @@ vsc_status vsc_watch_open(const vsc_problem *problem, const char *file, double k
   made->energy_scale = least_energy(problem->model);
   vsc_status status = vsc_ledger_create(problem->model, &made->ledger, error);
   if (status == VSC_OK) status = make_cavities(problem, made, error);
+  if (status == VSC_OK) status = number_points(problem, made, error);
   if (status == VSC_OK) status = open_file(file, keep_until, made, error);
   if (status != VSC_OK) {
     vsc_watch_free(made);
@@ -310,6 +353,7 @@ void vsc_watch_free(vsc_watch *watch)
   if (watch->file != NULL) fclose(watch->file);
   for (size_t c = 0; c < watch->cavity_count; c++) vsc_cavity_free(&watch->cavities[c]);
   vsc_free(watch->cavities);
+  vsc_free(watch->point_nodes);
   vsc_ledger_free(watch->ledger);
   vsc_free(watch);
 }

@@ -10,10 +10,10 @@
 #include "run/problem.h"
 
 // Columns of signals.csv: room for 55 that every scene may have, one for each cavity and pressure,
-// three for each obstacle and each support that moves.
+// three for each obstacle and each support that moves, six for each observed point.
 enum {
   VSC_SIGNALS = 55 + VSC_OUTPUT_ARRAYS + VSC_MOST_PRESSURES + 3 * VSC_MOST_OBSTACLES +
-                3 * VSC_MOST_MOVED,
+                3 * VSC_MOST_MOVED + 6 * VSC_OUTPUT_POINTS,
   VSC_SIGNAL_NAME = 96
 };
 
@@ -23,6 +23,7 @@ typedef struct vsc_watch {
   vsc_totals totals;   // of the last row
   size_t cavity_count;
   vsc_cavity *cavities;                        // with the model's node numbers; owned
+  uint32_t (*point_nodes)[VSC_MOST_CORNERS];   // of each observed point's element, in the model; owned
   size_t signal_count;                         // columns
   char names[VSC_SIGNALS][VSC_SIGNAL_NAME];    // "name [unit]"
   double values[VSC_SIGNALS];                  // the last row
