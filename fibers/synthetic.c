@@ -7,6 +7,7 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
+#include "fibers/ellipsoid.h"
 
 static void constant(const vsc_fiber_def *definition, double f[3], double hint[3])
 {
@@ -38,6 +39,17 @@ static void helicoidal(const double low[3], const double high[3], const double a
   f[2] = sin(pitch);
 }
 
+static void between_ellipsoids(const vsc_fiber_def *definition, const double at[3], double f[3],
+                               double hint[3])
+{
+  double frame[9];
+  if (!vsc_ellipsoid_frame(definition, at, frame)) return;
+  for (int a = 0; a < 3; a++) {
+    f[a] = frame[a];
+    hint[a] = frame[3 + a];
+  }
+}
+
 // Fibre and hint at a place.
 static void formula(const vsc_fiber_def *definition, const double low[3], const double high[3],
                     const double at[3], double f[3], double hint[3])
@@ -48,6 +60,7 @@ static void formula(const vsc_fiber_def *definition, const double low[3], const 
     case VSC_FIBER_HORIZONTAL: f[0] = 1; break;
     case VSC_FIBER_DIAGONAL: f[0] = f[2] = 1; break;
     case VSC_FIBER_HEMICIRCULAR: hemicircular(low, high, at, f, hint); break;
+    case VSC_FIBER_ELLIPSOID: between_ellipsoids(definition, at, f, hint); break;
     default: helicoidal(low, high, at, definition->pitch, f, hint);
   }
 }
@@ -57,8 +70,9 @@ static vsc_status check(const vsc_fiber_def *definition, vsc_error *error)
   const double *d = definition->direction;
   const vsc_fiber_source source = definition->source;
   if (source != VSC_FIBER_CONSTANT &&
-      (source < VSC_FIBER_HORIZONTAL || source > VSC_FIBER_RANDOM))
+      (source < VSC_FIBER_HORIZONTAL || source > VSC_FIBER_ELLIPSOID))
     return vsc_fail(error, VSC_INPUT, "fibre source %d is not a formula", (int)source);
+  if (source == VSC_FIBER_ELLIPSOID) return vsc_ellipsoid_check(definition, error);
   const double length = vsc_norm(d);
   if (definition->source == VSC_FIBER_CONSTANT && !(isfinite(length) && length >= 1e-6))
     return vsc_fail(error, VSC_INPUT,

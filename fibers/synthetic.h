@@ -19,7 +19,8 @@
 //                 line f = (0, 0, 1)
 //   RANDOM        uniform on the sphere, one draw per element in the mesh's order, from the Mersenne
 //                 twister of GSL with `seed`; sheet by rule
-// VSC_INPUT for another source, a zero or non-finite direction or a non-finite pitch.
+//   ELLIPSOID     the frame of fibers/ellipsoid.h at that place
+// VSC_INPUT for another source, what vsc_ellipsoid_check refuses, a zero or non-finite direction or a non-finite pitch.
 vsc_status vsc_fibers_synthetic(const vsc_mesh *mesh, const vsc_fiber_def *definition,
                                 vsc_axes *axes, vsc_error *error);
 

@@ -129,6 +129,18 @@ SPOIL(fall, d->pressures[0].curve = vsc_default_curve(VSC_CURVE_TANH_PAIR);
       d->pressures[0].curve.fall = -20)
 SPOIL(power, d->pressures[0].curve = vsc_default_curve(VSC_CURVE_DOUBLE_HILL);
       d->pressures[0].curve.fall_power = 0)
+SPOIL(stop, d->pressures[0].curve = vsc_default_curve(VSC_CURVE_BESTEL);
+      d->pressures[0].curve.start = 500)
+SPOIL(width, d->pressures[0].curve = vsc_default_curve(VSC_CURVE_BESTEL);
+      d->pressures[0].curve.width = 0)
+SPOIL(rate_up, d->pressures[0].curve = vsc_default_curve(VSC_CURVE_BESTEL);
+      d->pressures[0].curve.rate_up = 0)
+SPOIL(rate_down, d->pressures[0].curve = vsc_default_curve(VSC_CURVE_BESTEL);
+      d->pressures[0].curve.rate_down = 0.03)
+SPOIL(filling, d->pressures[0].curve = vsc_default_curve(VSC_CURVE_BESTEL_PRESSURE);
+      d->pressures[0].curve.filling = -1)
+SPOIL(driver_period, d->pressures[0].curve = vsc_default_curve(VSC_CURVE_BESTEL_PRESSURE);
+      d->pressures[0].curve.period = 480)
 SPOIL(start, d->pressures[0].curve.start = INFINITY)
 SPOIL(peak, d->pressures[0].peak = NAN)
 SPOIL(shared_region, d->materials[1].region_count = 1; d->materials[1].regions[0] = 3)
@@ -191,6 +203,12 @@ static void every_rule_names_its_key(void **state)
       {rise, "pressures[0].curve.rise: ", "above zero"},
       {fall, "pressures[0].curve.fall: -20 ms: ", "above zero"},
       {power, "pressures[0].curve.fall_power: 0: ", "above zero"},
+      {stop, "pressures[0].curve.stop: 484 ms: ", "after the start"},
+      {width, "pressures[0].curve.width: 0 ms: ", "above zero"},
+      {rate_up, "pressures[0].curve.rate_up: 0 1/ms: ", "above zero"},
+      {rate_down, "pressures[0].curve.rate_down: 0.03 1/ms: ", "below zero"},
+      {filling, "pressures[0].curve.filling: -1 1/ms: ", "zero or more"},
+      {driver_period, "pressures[0].curve.period: 480 ms: ", "after its stop"},
       {start, "pressures[0].curve.start: ", "finite"},
       {peak, "pressures[0].peak: ", "finite"},
       {shared_region, "materials[1].regions: 3: ", "muscle"},

@@ -199,6 +199,8 @@ static const char *fiber_source_text(const vsc_fiber_def *fibers)
       return "arrays of the mesh";
     case VSC_FIBER_HELIX:
       return "a transmural helix";
+    case VSC_FIBER_ELLIPSOID:
+      return "a transmural helix between ellipsoids";
     default:
       return "a synthetic field";
   }

@@ -7,24 +7,11 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
+#include "fibers/ellipsoid.h"
 #include "fibers/helix.h"
 #include "fibers/sample.h"
+#include "mesh/select.h"
 #include "tools/shapes_bricks.h"
-
-static bool all_right_handed(const vsc_mesh *mesh)
-{
-  for (size_t e = 0; e < mesh->element_count; e++)
-    if (!(vsc_mesh_element_volume(mesh, e) > 0)) return false;
-  return true;
-}
-
-static void set_sources(vsc_mesh *mesh)
-{
-  mesh->report.file_nodes = mesh->node_count;
-  mesh->report.file_cells = mesh->element_count;
-}
-
-// ---- The left ventricle
 
 vsc_lv_shape vsc_lv_default(void)
 {
@@ -38,29 +25,31 @@ vsc_lv_shape vsc_lv_default(void)
                         .layers = 3};
 }
 
-static vsc_status check_lv(const vsc_lv_shape *lv, vsc_error *error)
+vsc_lv_shape vsc_lv_land(void)
 {
-  const bool sizes = lv->endo_radius > 0 && lv->endo_length > 0 &&
-                     lv->epi_radius > lv->endo_radius && lv->epi_length > lv->endo_length &&
-                     isfinite(lv->epi_radius) && isfinite(lv->epi_length);
-  if (!sizes)
-    return vsc_fail(error, VSC_INPUT,
-                    "ventricle: endocardial radius %g and length %g mm must be above 0 and "
-                    "below the epicardial ones, %g and %g mm",
-                    lv->endo_radius, lv->endo_length, lv->epi_radius, lv->epi_length);
-  if (!(fabs(lv->base) < 0.95 * lv->endo_length))
-    return vsc_fail(error, VSC_INPUT,
-                    "ventricle: the base plane at z = %g mm must cut the endocardium, "
-                    "within 95 %% of its half length %g mm",
-                    lv->base, lv->endo_length);
-  const size_t most = 4096;
-  if (lv->around < 4 || lv->around % 4 != 0 || lv->around > most || lv->along < 1 ||
-      lv->along > most || lv->layers < 1 || lv->layers > 256)
-    return vsc_fail(error, VSC_INPUT,
-                    "ventricle: %zu bricks around, %zu along, %zu layers: around must be a "
-                    "multiple of 4, all at least 1, at most 4096, 4096 and 256",
-                    lv->around, lv->along, lv->layers);
-  return VSC_OK;
+  return (vsc_lv_shape){.endo_radius = 7,
+                        .endo_length = 17,
+                        .epi_radius = 10,
+                        .epi_length = 20,
+                        .base = 5,
+                        .around = 16,
+                        .along = 12,
+                        .layers = 2};
+}
+
+vsc_lv_shape vsc_lv_arostica(void)
+{
+  return (vsc_lv_shape){.endo_radius = 25,
+                        .endo_length = 90,
+                        .epi_radius = 35,
+                        .epi_length = 97,
+                        .base = 90 * 5. / 17,
+                        .base_rise = 97 * 5. / 20 - 90 * 5. / 17,
+                        .around = 32,
+                        .along = 20,
+                        .layers = 2,
+                        .along_x = true,
+                        .surfaces = true};
 }
 
 static double radius(const vsc_lv_shape *lv, double t)
@@ -73,35 +62,94 @@ static double length(const vsc_lv_shape *lv, double t)
   return (1 - t) * lv->endo_length + t * lv->epi_length;
 }
 
+// Radius of the ellipsoid of depth t at the height z.
+static double radius_at(const vsc_lv_shape *lv, double t, double z)
+{
+  const double part = z / length(lv, t);
+  return radius(lv, t) * sqrt(1 - part * part);
+}
+
+static vsc_status check_base(const vsc_lv_shape *lv, vsc_error *error)
+{
+  const double epi_base = lv->base + lv->base_rise;
+  if (!(fabs(lv->base) < 0.95 * lv->endo_length) || !(fabs(epi_base) < 0.95 * lv->epi_length))
+    return vsc_fail(error, VSC_INPUT,
+                    "ventricle: the base plane at z = %g mm (%g mm at the epicardium) must cut the wall, "
+                    "within 95 %% of its half lengths %g and %g mm",
+                    lv->base, epi_base, lv->endo_length, lv->epi_length);
+  const double inner = radius_at(lv, 0, lv->base), outer = radius_at(lv, 1, epi_base);
+  if (!(outer > inner))
+    return vsc_fail(error, VSC_INPUT,
+                    "ventricle: a base that rises by %g mm has radii of %g mm inside and %g mm outside, "
+                    "use a smaller rise",
+                    lv->base_rise, inner, outer);
+  return VSC_OK;
+}
+
+static vsc_status check_lv(const vsc_lv_shape *lv, vsc_error *error)
+{
+  const bool sizes = lv->endo_radius > 0 && lv->endo_length > 0 &&
+                     lv->epi_radius > lv->endo_radius && lv->epi_length > lv->endo_length &&
+                     isfinite(lv->epi_radius) && isfinite(lv->epi_length);
+  if (!sizes)
+    return vsc_fail(error, VSC_INPUT,
+                    "ventricle: endocardial radius %g and length %g mm must be above 0 and "
+                    "below the epicardial ones, %g and %g mm",
+                    lv->endo_radius, lv->endo_length, lv->epi_radius, lv->epi_length);
+  const vsc_status status = check_base(lv, error);
+  if (status != VSC_OK) return status;
+  if (lv->element == VSC_BLOCK_MIXED)
+    return vsc_fail(error, VSC_INPUT, "ventricle: no mixed elements, use tets, hexes or wedges");
+  const size_t most = 4096;
+  if (lv->around < 4 || lv->around % 4 != 0 || lv->around > most || lv->along < 1 ||
+      lv->along > most || lv->layers < 1 || lv->layers > 256)
+    return vsc_fail(error, VSC_INPUT,
+                    "ventricle: %zu bricks around, %zu along, %zu layers: around must be a "
+                    "multiple of 4, all at least 1, at most 4096, 4096 and 256",
+                    lv->around, lv->along, lv->layers);
+  return VSC_OK;
+}
+
+// Height of the base's ring on the ellipsoid of depth t: where the line from the endocardial ring to the
+// epicardial one meets it, at the part s of the line that solves
+// ((r0 + s dr)/rs)^2 + ((z0 + s dz)/rl)^2 = 1.
+static double base_height(const vsc_lv_shape *lv, double t)
+{
+  const double rs = radius(lv, t), rl = length(lv, t);
+  const double r0 = radius_at(lv, 0, lv->base) / rs, z0 = lv->base / rl;
+  const double dr = radius_at(lv, 1, lv->base + lv->base_rise) / rs - r0, dz = lv->base_rise / rl;
+  const double a = dr * dr + dz * dz, b = r0 * dr + z0 * dz, c = r0 * r0 + z0 * z0 - 1;
+  return lv->base - lv->base_rise * c / (b + sqrt(b * b - a * c));
+}
+
 double vsc_lv_volume(const vsc_lv_shape *lv, double depth)
 {
-  const double rs = radius(lv, depth), rl = length(lv, depth), b = lv->base;
+  const double rs = radius(lv, depth), rl = length(lv, depth), b = base_height(lv, depth);
   return M_PI * rs * rs * (b + 2 * rl / 3 - b * b * b / (3 * rl * rl));
+}
+
+static const double z_axis[3] = {0, 0, 1}, x_axis[3] = {1, 0, 0};
+
+static double depth_and_normal(const vsc_lv_shape *lv, const double point[3], double outwards[3])
+{
+  const vsc_ellipsoid_def wall = {.endo_radius = lv->endo_radius,
+                                  .endo_length = lv->endo_length,
+                                  .epi_radius = lv->epi_radius,
+                                  .epi_length = lv->epi_length};
+  return vsc_ellipsoid_depth(&wall, lv->along_x ? x_axis : z_axis, point, outwards);
 }
 
 double vsc_lv_depth(const vsc_lv_shape *lv, const double point[3])
 {
-  const double square = point[0] * point[0] + point[1] * point[1];
-  double low = -1, high = 3;
-  for (int i = 0; i < 60; i++) {
-    const double t = (low + high) / 2, rs = radius(lv, t), rl = length(lv, t);
-    const bool outside =
-        rs <= 0 || rl <= 0 || square / (rs * rs) + point[2] * point[2] / (rl * rl) > 1;
-    if (outside)
-      low = t;
-    else
-      high = t;
-  }
-  return (low + high) / 2;
+  return depth_and_normal(lv, point, NULL);
 }
 
 void vsc_lv_frame(const vsc_lv_shape *lv, const double point[3], double endo_angle,
                   double epi_angle, double frame[9])
 {
-  static const double long_axis[3] = {0, 0, 1};
-  const double t = vsc_lv_depth(lv, point), rs = radius(lv, t), rl = length(lv, t);
-  const double outwards[3] = {point[0] / (rs * rs), point[1] / (rs * rs), point[2] / (rl * rl)};
-  vsc_helix_frame(outwards, long_axis, (1 - t) * endo_angle + t * epi_angle, frame);
+  double outwards[3];
+  const double t = depth_and_normal(lv, point, outwards);
+  vsc_helix_frame(outwards, lv->along_x ? x_axis : z_axis, (1 - t) * endo_angle + t * epi_angle, frame);
 }
 
 // The nodes of one layer: a square patch of (side + 1)^2 nodes at the apex, then `along` rings of
@@ -110,20 +158,21 @@ enum { MERIDIAN = 1024 };
 typedef struct lv_grid {
   const vsc_lv_shape *lv;
   size_t side;                    // bricks along one edge of the patch
-  size_t per_layer;               // nodes
+  vsc_wall wall;
   double meridian[MERIDIAN + 1];  // arc length from the apex to u = i / MERIDIAN of the base's u,
                                   // as a part of the whole
 } lv_grid;
 
 static double base_angle(const vsc_lv_shape *lv, double t)
 {
-  return acos(-lv->base / length(lv, t));
+  return acos(-base_height(lv, t) / length(lv, t));
 }
 
 static lv_grid make_grid(const vsc_lv_shape *lv)
 {
   lv_grid grid = {.lv = lv, .side = lv->around / 4};
-  grid.per_layer = (grid.side + 1) * (grid.side + 1) + lv->around * lv->along;
+  const size_t n = grid.side, sides = lv->around * lv->along;
+  grid.wall = (vsc_wall){(n + 1) * (n + 1) + sides, n * n + sides, lv->layers, lv->element};
   const double rs = radius(lv, 0.5), rl = length(lv, 0.5), step = base_angle(lv, 0.5) / MERIDIAN;
   for (int i = 0; i < MERIDIAN; i++) {
     const double u = (i + 0.5) * step;
@@ -193,10 +242,11 @@ static void place_column(const lv_grid *grid, vsc_mesh *mesh, size_t node, doubl
   const double angle = base ? 1 : part_of_angle(grid, part);
   for (size_t layer = 0; layer <= lv->layers; layer++) {
     const double t = (double)layer / (double)lv->layers, u = angle * base_angle(lv, t);
-    double *x = &mesh->nodes[3 * (layer * grid->per_layer + node)];
-    x[0] = radius(lv, t) * sin(u) * cos(azimuth);
-    x[1] = radius(lv, t) * sin(u) * sin(azimuth);
-    x[2] = base ? lv->base : -length(lv, t) * cos(u);
+    double *x = &mesh->nodes[3 * (layer * grid->wall.per_layer + node)];
+    const size_t across = lv->along_x ? 1 : 0;
+    x[across] = radius(lv, t) * sin(u) * cos(azimuth);
+    x[across + 1] = radius(lv, t) * sin(u) * sin(azimuth);
+    x[(across + 2) % 3] = base ? base_height(lv, t) : -length(lv, t) * cos(u);
   }
 }
 
@@ -219,21 +269,6 @@ static void place_nodes(const lv_grid *grid, vsc_mesh *mesh)
   }
 }
 
-// The bricks over one quadrilateral of a layer, from endocardium to epicardium.
-static void cut_column(const lv_grid *grid, vsc_mesh *mesh, size_t column, const uint32_t quad[4],
-                       size_t parity)
-{
-  for (size_t layer = 0; layer < grid->lv->layers; layer++) {
-    uint32_t corner[8];
-    for (int c = 0; c < 4; c++) {
-      corner[c] = (uint32_t)(layer * grid->per_layer) + quad[c];
-      corner[c + 4] = corner[c] + (uint32_t)grid->per_layer;
-    }
-    vsc_brick_cut(corner, 5, (parity + layer) % 2 == 1,
-                  &mesh->corners[20 * (column * grid->lv->layers + layer)]);
-  }
-}
-
 // Quadrilaterals turn anti-clockwise seen from outside the wall, so that bricks are right-handed.
 static void cut_wall(const lv_grid *grid, vsc_mesh *mesh)
 {
@@ -243,7 +278,7 @@ static void cut_wall(const lv_grid *grid, vsc_mesh *mesh)
     for (size_t i = 0; i < n; i++) {
       const uint32_t first = (uint32_t)(j * (n + 1) + i), above = first + (uint32_t)n + 1;
       const uint32_t quad[4] = {first, above, above + 1, first + 1};
-      cut_column(grid, mesh, column++, quad, i + j);
+      vsc_wall_cut(&grid->wall, mesh, column++, quad, i + j);
     }
   for (size_t k = 0; k < grid->lv->around; k++)
     for (size_t row = 0; row < grid->lv->along; row++) {
@@ -251,7 +286,7 @@ static void cut_wall(const lv_grid *grid, vsc_mesh *mesh)
                                 ring_node(grid, k + 1, row + 1), ring_node(grid, k, row + 1)};
       size_t i, j;
       patch_edge(grid, k, &i, &j);
-      cut_column(grid, mesh, column++, quad, i + j + row);
+      vsc_wall_cut(&grid->wall, mesh, column++, quad, i + j + row);
     }
 }
 
@@ -264,10 +299,10 @@ static bool mark_lv(const lv_grid *grid, vsc_mesh *mesh)
     if (array == NULL) return false;
     mark[a] = array->values;
   }
-  const size_t last = grid->lv->layers, first_of_base = grid->per_layer - grid->lv->around;
+  const size_t last = grid->lv->layers, first_of_base = grid->wall.per_layer - grid->lv->around;
   for (size_t layer = 0; layer <= last; layer++)
-    for (size_t i = 0; i < grid->per_layer; i++) {
-      const size_t node = layer * grid->per_layer + i;
+    for (size_t i = 0; i < grid->wall.per_layer; i++) {
+      const size_t node = layer * grid->wall.per_layer + i;
       const bool base = i >= first_of_base;
       mark[0][node] = layer == 0;
       mark[1][node] = layer == last;
@@ -277,30 +312,55 @@ static bool mark_lv(const lv_grid *grid, vsc_mesh *mesh)
   return vsc_region_add(mesh);
 }
 
-vsc_status vsc_lv_mesh(const vsc_lv_shape *lv, vsc_mesh **result, vsc_error *error)
+// The triangles of the boundary and the parts of it that they belong to.
+static vsc_status add_surfaces(const lv_grid *grid, vsc_mesh *mesh, vsc_error *error)
 {
-  const vsc_status status = check_lv(lv, error);
+  vsc_surface boundary = {.count = 0};
+  const vsc_status status = vsc_boundary(mesh, &boundary, error);
   if (status != VSC_OK) return status;
-  const lv_grid grid = make_grid(lv);
-  const size_t columns = grid.side * grid.side + lv->around * lv->along;
-  vsc_mesh *mesh = vsc_mesh_create((lv->layers + 1) * grid.per_layer, 5 * columns * lv->layers, 0);
-  if (mesh == NULL) return vsc_fail_memory(error, "the ventricle's mesh");
-  place_nodes(&grid, mesh);
-  cut_wall(&grid, mesh);
-  set_sources(mesh);
-  if (!mark_lv(&grid, mesh)) {
-    vsc_mesh_free(mesh);
-    return vsc_fail_memory(error, "the ventricle's arrays");
+  vsc_array *part = vsc_arrays_add(&mesh->triangle_data, "surface", 1, mesh->triangle_count);
+  for (size_t k = 0; part != NULL && k < mesh->triangle_count; k++) {
+    size_t inner = 0, outer = 0;
+    for (size_t i = 3 * k; i < 3 * k + 3; i++) {
+      const size_t layer = boundary.triangles[i] / grid->wall.per_layer;
+      mesh->triangles[i] = boundary.triangles[i];
+      inner += layer == 0;
+      outer += layer == grid->lv->layers;
+    }
+    part->values[k] = inner == 3 ? 1 : outer == 3 ? 2 : 3;
   }
-  if (!all_right_handed(mesh)) {
-    vsc_mesh_free(mesh);
+  vsc_surface_free(&boundary);
+  return part != NULL ? VSC_OK : vsc_fail_memory(error, "the ventricle's surfaces");
+}
+
+static vsc_status fill_lv(const lv_grid *grid, vsc_mesh *mesh, vsc_error *error)
+{
+  place_nodes(grid, mesh);
+  cut_wall(grid, mesh);
+  if (!mark_lv(grid, mesh)) return vsc_fail_memory(error, "the ventricle's arrays");
+  if (!vsc_shape_finish(mesh))
     return vsc_fail(error, VSC_INPUT,
                     "ventricle: %zu bricks around and %zu along are too few for its shape: "
-                    "tets would be turned inside out, use more",
-                    lv->around, lv->along);
-  }
-  *result = mesh;
-  return VSC_OK;
+                    "elements would be turned inside out, use more",
+                    grid->lv->around, grid->lv->along);
+  return grid->lv->surfaces ? add_surfaces(grid, mesh, error) : VSC_OK;
+}
+
+vsc_status vsc_lv_mesh(const vsc_lv_shape *lv, vsc_mesh **result, vsc_error *error)
+{
+  vsc_status status = check_lv(lv, error);
+  if (status != VSC_OK) return status;
+  const lv_grid grid = make_grid(lv);
+  // two on each brick of the inner and the outer surface and of the base
+  const size_t triangles = lv->surfaces ? 4 * grid.wall.columns + 2 * lv->around * lv->layers : 0;
+  vsc_mesh *mesh = vsc_wall_create(&grid.wall, triangles);
+  if (mesh == NULL) return vsc_fail_memory(error, "the ventricle's mesh");
+  status = fill_lv(&grid, mesh, error);
+  if (status == VSC_OK)
+    *result = mesh;
+  else
+    vsc_mesh_free(mesh);
+  return status;
 }
 
 static void map_voxel(const vsc_lv_shape *lv, double endo_angle, double epi_angle, vsc_image *image,
@@ -323,6 +383,8 @@ vsc_status vsc_lv_map(const vsc_lv_shape *lv, double endo_angle, double epi_angl
 {
   const vsc_status status = check_lv(lv, error);
   if (status != VSC_OK) return status;
+  if (lv->along_x || lv->base_rise != 0)
+    return vsc_fail(error, VSC_INPUT, "map: a ventricle about z with a flat base only");
   if (!(spacing > lv->epi_radius / 500 && spacing < lv->epi_radius))
     return vsc_fail(error, VSC_INPUT,
                     "map: a voxel of %g mm does not suit a ventricle of %g mm radius, use "
@@ -345,99 +407,5 @@ vsc_status vsc_lv_map(const vsc_lv_shape *lv, double endo_angle, double epi_angl
     }
   for (size_t v = 0; v < voxels; v++) map_voxel(lv, endo_angle, epi_angle, image, v);
   *result = image;
-  return VSC_OK;
-}
-
-// ---- The block
-
-vsc_block_shape vsc_block_default(void)
-{
-  return (vsc_block_shape){.cells = {4, 4, 4}, .size = {10, 10, 10}, .tets_per_cell = 5, .seed = 1};
-}
-
-static vsc_status check_block(const vsc_block_shape *block, vsc_error *error)
-{
-  for (int a = 0; a < 3; a++) {
-    if (block->cells[a] < 1 || block->cells[a] > 1000)
-      return vsc_fail(error, VSC_INPUT, "block: %zu bricks along %c, must be 1 to 1000",
-                      block->cells[a], 'x' + a);
-    if (!(block->size[a] > 0 && isfinite(block->size[a])))
-      return vsc_fail(error, VSC_INPUT, "block: size %g mm along %c, must be above 0",
-                      block->size[a], 'x' + a);
-  }
-  if (block->tets_per_cell != 5 && block->tets_per_cell != 6)
-    return vsc_fail(error, VSC_INPUT, "block: %d tets per brick, must be 5 or 6",
-                    block->tets_per_cell);
-  if (!(block->jitter >= 0 && block->jitter <= 0.3))
-    return vsc_fail(error, VSC_INPUT, "block: jitter %g, must be 0 to 0.3 of a brick",
-                    block->jitter);
-  return VSC_OK;
-}
-
-double vsc_scatter(unsigned long seed, size_t number)
-{
-  uint64_t z = (seed * UINT64_C(0x100000001B3) + number + 1) * UINT64_C(0x9E3779B97F4A7C15);
-  z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
-  z = (z ^ (z >> 27)) * UINT64_C(0x94D049BB133111EB);
-  z ^= z >> 31;
-  return ldexp((double)(z >> 11), -52) - 1;
-}
-
-static void place_block_node(const vsc_block_shape *block, vsc_mesh *mesh, size_t node)
-{
-  const size_t across = block->cells[0] + 1, deep = block->cells[1] + 1;
-  const size_t index[3] = {node % across, node / across % deep, node / across / deep};
-  bool inner = true;
-  for (int a = 0; a < 3; a++) {
-    const bool low = index[a] == 0, high = index[a] == block->cells[a];
-    mesh->node_data.items[2 * a].values[node] = low;
-    mesh->node_data.items[2 * a + 1].values[node] = high;
-    if (low || high) inner = false;
-  }
-  for (int a = 0; a < 3; a++) {
-    const double cells = (double)block->cells[a];
-    double part = (double)index[a] / cells;
-    if (inner)
-      part += block->jitter * vsc_scatter(block->seed, 3 * node + (size_t)a) / cells;
-    mesh->nodes[3 * node + (size_t)a] = block->size[a] * part;
-  }
-}
-
-static void cut_block(const vsc_block_shape *block, vsc_mesh *mesh)
-{
-  const size_t *cells = block->cells, tets = (size_t)block->tets_per_cell;
-  for (size_t b = 0; b < cells[0] * cells[1] * cells[2]; b++) {
-    uint32_t corner[8];
-    const bool mirrored = vsc_brick_corners(cells, b, corner);
-    vsc_brick_cut(corner, block->tets_per_cell, mirrored, &mesh->corners[4 * tets * b]);
-  }
-}
-
-vsc_status vsc_block_mesh(const vsc_block_shape *block, vsc_mesh **result, vsc_error *error)
-{
-  const vsc_status status = check_block(block, error);
-  if (status != VSC_OK) return status;
-  const size_t *cells = block->cells;
-  const size_t nodes = (cells[0] + 1) * (cells[1] + 1) * (cells[2] + 1);
-  vsc_mesh *mesh =
-      vsc_mesh_create(nodes, cells[0] * cells[1] * cells[2] * (size_t)block->tets_per_cell, 0);
-  if (mesh == NULL) return vsc_fail_memory(error, "the block's mesh");
-  static const char *const names[6] = {"x0", "x1", "y0", "y1", "z0", "z1"};
-  bool complete = true;
-  for (int a = 0; a < 6 && complete; a++)
-    complete = vsc_arrays_add(&mesh->node_data, names[a], 1, nodes) != NULL;
-  cut_block(block, mesh);
-  if (!complete || !vsc_region_add(mesh)) {
-    vsc_mesh_free(mesh);
-    return vsc_fail_memory(error, "the block's arrays");
-  }
-  for (size_t n = 0; n < nodes; n++) place_block_node(block, mesh, n);
-  set_sources(mesh);
-  if (!all_right_handed(mesh)) {
-    vsc_mesh_free(mesh);
-    return vsc_fail(error, VSC_INPUT, "block: a jitter of %g turns tets inside out, use less",
-                    block->jitter);
-  }
-  *result = mesh;
   return VSC_OK;
 }

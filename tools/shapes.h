@@ -6,9 +6,10 @@
 
 #include "mesh/image.h"
 #include "mesh/mesh.h"
+#include "tools/shapes_bricks.h"
 
 // A left ventricle between two half ellipsoids of revolution about z, apex at -z, cut by the plane
-// z = base. A point at depth t (0 endocardium, 1 epicardium) lies on the ellipsoid with the radius
+// z = base, or by a cone. A point at depth t (0 endocardium, 1 epicardium) lies on the ellipsoid with the radius
 // (1-t) endo_radius + t epi_radius and the half length (1-t) endo_length + t epi_length.
 typedef struct vsc_lv_shape {
   double endo_radius;  // mm, at the equator z = 0
@@ -19,18 +20,32 @@ typedef struct vsc_lv_shape {
   size_t around;       // bricks round the circumference, a multiple of 4
   size_t along;        // bricks from the apical patch to the base
   size_t layers;       // bricks through the wall
+  double base_rise;    // mm; by how much the base lies higher at the epicardium: 0 (a plane), or a cone
+                       // of straight lines from the endocardial ring to the epicardial one
+  bool along_x;        // x, y, z take the places of z, x, y: the long axis is x, the apex at -x
+  bool surfaces;       // the mesh has the boundary's triangles, too: array `surface`, 1 endocardium,
+                       // 2 epicardium, 3 base
+  vsc_block_kind element;  // TETS (5 of a brick), HEXES or WEDGES
 } vsc_lv_shape;
 
 // An adult human ventricle: cavity 134 ml, wall 9.5 mm thick at the equator and 7 mm at the apex,
 // 135 ml of tissue, 86 mm from the endocardial apex to the base; 32 x 14 x 3 bricks.
 vsc_lv_shape vsc_lv_default(void);
 
-// The volume between the ellipsoid of depth `depth` and the base plane, mm^3:
+// The ventricle of Land et al. 2015, problems 2 and 3: cavity 7 by 17 mm, outside 10 by 20 mm, base plane
+// z = 5; 16 x 12 x 2 bricks (2080 tets).
+vsc_lv_shape vsc_lv_land(void);
+
+// The one ventricle of Arostica et al. 2025: cavity 25 by 90 mm, outside 35 by 97 mm, axis x, base rings
+// where cos u = 5/17 inside and 5/20 outside, with surfaces; 32 x 20 x 2 bricks (7040 tets).
+vsc_lv_shape vsc_lv_arostica(void);
+
+// The volume between the ellipsoid of depth `depth` and the plane through its ring of the base, mm^3:
 // pi rs^2 (b + 2 rl/3 - b^3 / (3 rl^2)).
 double vsc_lv_volume(const vsc_lv_shape *shape, double depth);
 
-// Depth of a point: the t whose ellipsoid holds it, between -1 and 3 (limited to these), by
-// bisection of (x^2 + y^2) / rs(t)^2 + z^2 / rl(t)^2 = 1.
+// Depth of a point: the t whose ellipsoid holds it, between -1 and 3 (limited to these):
+// vsc_ellipsoid_depth.
 double vsc_lv_depth(const vsc_lv_shape *shape, const double point[3]);
 
 // The frame (rows f, s, n) of the transmural helix at a point, by the convention of fibers/helix.h:
@@ -39,15 +54,15 @@ void vsc_lv_frame(const vsc_lv_shape *shape, const double point[3], double endo_
                   double epi_angle, double frame[9]);
 
 // The mesh of the ventricle: a square patch at the apex and four side patches (a cubed sphere), so
-// that no element is degenerate; each brick is cut into 5 tets, neighbours mirrored so that faces
-// match. Node arrays `endo`, `epi`, `base` and `rim` (the epicardial edge of the base), 0 or 1; tet
-// array `region`, 1. The caller owns *mesh. VSC_INPUT for dimensions that make no ventricle.
+// that no element is degenerate; bricks become `element`s, tets mirrored from brick to brick so that
+// faces match. Node arrays `endo`, `epi`, `base` and `rim` (the epicardial edge of the base), 0 or 1;
+// cell array `region`, 1. The caller owns *mesh. VSC_INPUT for dimensions that make no ventricle.
 vsc_status vsc_lv_mesh(const vsc_lv_shape *shape, vsc_mesh **mesh, vsc_error *error);
 
 // The angle map of the helix on a grid of cubic voxels round the wall, with a margin of one voxel:
 // point arrays `azimuth` (degrees in [0, 180)), `elevation` (degrees in [-90, 90]) and `tissue` (1
-// for voxel centres in the wall; elsewhere all three are 0). Angles in radians, spacing in mm. The
-// caller owns *image.
+// for voxel centres in the wall; elsewhere all three are 0). Angles in radians, spacing in mm. Of
+// ventricles about z with a flat base only. The caller owns *image.
 vsc_status vsc_lv_map(const vsc_lv_shape *shape, double endo_angle, double epi_angle,
                       double spacing, vsc_image **image, vsc_error *error);
 

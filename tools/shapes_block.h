@@ -5,15 +5,6 @@
 
 #include "tools/shapes.h"
 
-// What becomes of the bricks of a block.
-typedef enum vsc_block_kind {
-  VSC_BLOCK_TETS,    // vsc_block_mesh
-  VSC_BLOCK_HEXES,   // each is a hexahedron
-  VSC_BLOCK_WEDGES,  // each is cut into two wedges that stand on their triangles
-  VSC_BLOCK_MIXED,   // along x: hexahedra, wedges, a layer of five pyramids and two tets round the
-                     // centre of each brick, tets; at least four bricks
-} vsc_block_kind;
-
 // The mesh of the box, nodes (on the corners of bricks), arrays and errors as those of
 // vsc_block_mesh; VSC_INPUT also for a mixed block of fewer than four bricks along x. The centres
 // of the pyramids' bricks come behind the other nodes. The caller owns *mesh.

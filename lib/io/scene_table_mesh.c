@@ -77,6 +77,7 @@ static const vsc_word sources[] = {
     {"helix", VSC_FIBER_HELIX},         {"horizontal", VSC_FIBER_HORIZONTAL},
     {"diagonal", VSC_FIBER_DIAGONAL},   {"hemicircular", VSC_FIBER_HEMICIRCULAR},
     {"helicoidal", VSC_FIBER_HELICOIDAL}, {"random", VSC_FIBER_RANDOM},
+    {"ellipsoid", VSC_FIBER_ELLIPSOID},
     {NULL, 0},
 };
 
@@ -134,16 +135,38 @@ static const vsc_row helix_rows[] = {
 };
 GROUP(static, helix, -1);
 
+static const vsc_row ellipsoid_rows[] = {
+    {"centre", VECTOR(vsc_fiber_def, ellipsoid.centre, VSC_LENGTH), .text = "[0 mm, 0 mm, 0 mm]",
+     .meaning = "of both ellipsoids"},
+    {"long_axis", VECTOR(vsc_fiber_def, long_axis, VSC_NUMBER), .text = "[0, 0, 1]",
+     .meaning = "from apex to base, of any length"},
+    {"endo_radius", QUANTITY(vsc_fiber_def, ellipsoid.endo_radius, VSC_LENGTH),
+     .needed = VSC_ALWAYS, .text = "7 mm", .meaning = "of the cavity, across the long axis"},
+    {"endo_length", QUANTITY(vsc_fiber_def, ellipsoid.endo_length, VSC_LENGTH),
+     .needed = VSC_ALWAYS, .text = "17 mm", .meaning = "from the centre to its apex"},
+    {"epi_radius", QUANTITY(vsc_fiber_def, ellipsoid.epi_radius, VSC_LENGTH), .needed = VSC_ALWAYS,
+     .text = "10 mm", .meaning = "the same of the outside"},
+    {"epi_length", QUANTITY(vsc_fiber_def, ellipsoid.epi_length, VSC_LENGTH), .needed = VSC_ALWAYS,
+     .text = "20 mm", .meaning = "likewise"},
+    {"endo_angle", QUANTITY(vsc_fiber_def, endo_angle, VSC_ANGLE), .text = "60 deg",
+     .meaning = "helix angle inside, from the circumference towards the base"},
+    {"epi_angle", QUANTITY(vsc_fiber_def, epi_angle, VSC_ANGLE), .text = "-60 deg",
+     .meaning = "outside"},
+};
+GROUP(static, ellipsoid, -1);
+
 static const vsc_row vsc_fiber_group_rows[] = {
     {"source", CHOICE(vsc_fiber_def, source, sources), .text = "constant",
      .meaning = "none, map, arrays, constant, helix, horizontal, diagonal, hemicircular, "
-                "helicoidal, random"},
+                "helicoidal, random, ellipsoid"},
     {"fill", .kind = VSC_ROW_BOOL, AT(vsc_fiber_def, fill), .text = "false",
      .meaning = "map, arrays: elements without data take their neighbours' mean axis"},
     {"map", PART(offsetof(vsc_fiber_def, map), map), .meaning = "for source: map"},
     {"arrays", PART(0, array), .meaning = "for source: arrays"},
     {"constant", PART(0, constant), .meaning = "for source: constant"},
     {"helix", PART(0, helix), .meaning = "for source: helix"},
+    {"ellipsoid", PART(0, ellipsoid), .commented = true,
+     .meaning = "for source: ellipsoid: a helix between two ellipsoids"},
     {"pitch", QUANTITY(vsc_fiber_def, pitch, VSC_ANGLE), .text = "30 deg",
      .meaning = "helicoidal: above the horizontal"},
     {"seed", .kind = VSC_ROW_WHOLE, AT(vsc_fiber_def, seed), .text = "1", .meaning = "random"},

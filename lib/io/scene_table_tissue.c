@@ -8,16 +8,19 @@ static const vsc_word curve_kinds[] = {
     {"constant", VSC_CURVE_CONSTANT},       {"ramp", VSC_CURVE_RAMP},
     {"half_sine", VSC_CURVE_HALF_SINE},     {"double_hill", VSC_CURVE_DOUBLE_HILL},
     {"tanh_pair", VSC_CURVE_TANH_PAIR},     {"table", VSC_CURVE_TABLE},
+    {"bestel", VSC_CURVE_BESTEL},           {"bestel_pressure", VSC_CURVE_BESTEL_PRESSURE},
     {NULL, 0},
 };
 
 enum {
+  DRIVEN = BIT(VSC_CURVE_BESTEL) | BIT(VSC_CURVE_BESTEL_PRESSURE),
   STARTING = BIT(VSC_CURVE_RAMP) | BIT(VSC_CURVE_HALF_SINE) | BIT(VSC_CURVE_DOUBLE_HILL) |
-             BIT(VSC_CURVE_TANH_PAIR),
+             BIT(VSC_CURVE_TANH_PAIR) | DRIVEN,
   LASTING = BIT(VSC_CURVE_RAMP) | BIT(VSC_CURVE_HALF_SINE) | BIT(VSC_CURVE_TANH_PAIR),
   SMOOTH = BIT(VSC_CURVE_DOUBLE_HILL) | BIT(VSC_CURVE_TANH_PAIR),
   HILL = BIT(VSC_CURVE_DOUBLE_HILL),
   TABLE = BIT(VSC_CURVE_TABLE),
+  FILLED = BIT(VSC_CURVE_BESTEL_PRESSURE),
 };
 
 static void start_curve(void *target)
@@ -29,9 +32,24 @@ static void start_curve(void *target)
 static const vsc_row vsc_curve_group_rows[] = {
     {"kind", CHOICE(vsc_curve_def, kind, curve_kinds), .needed = VSC_ALWAYS, .after = start_curve,
      .text = "half_sine",
-     .meaning = "constant, ramp, half_sine, double_hill, tanh_pair, table; from 0 to 1"},
+     .meaning = "constant, ramp, half_sine, double_hill, tanh_pair, table, from 0 to 1; or from "
+                "equations: bestel (a tension), bestel_pressure"},
     {"start", QUANTITY(vsc_curve_def, start, VSC_TIME), .allowed = STARTING, .text = "100 ms",
-     .meaning = "default 0 ms"},
+     .meaning = "default 0 ms; bestel: 160 ms, bestel_pressure: 170 ms"},
+    {"stop", QUANTITY(vsc_curve_def, stop, VSC_TIME), .allowed = DRIVEN, .commented = true,
+     .text = "484 ms", .meaning = "bestel, bestel_pressure, also below: end of systole"},
+    {"width", QUANTITY(vsc_curve_def, width, VSC_TIME), .allowed = DRIVEN, .commented = true,
+     .text = "5 ms", .meaning = "time in which systole begins and ends"},
+    {"rate_up", QUANTITY(vsc_curve_def, rate_up, VSC_RATE), .allowed = DRIVEN, .commented = true,
+     .text = "5 1/s", .meaning = "in systole"},
+    {"rate_down", QUANTITY(vsc_curve_def, rate_down, VSC_RATE), .allowed = DRIVEN,
+     .commented = true, .text = "-30 1/s", .meaning = "otherwise"},
+    {"rate_pre", QUANTITY(vsc_curve_def, rate_pre, VSC_RATE), .allowed = FILLED, .commented = true,
+     .text = "5 1/s", .meaning = "bestel_pressure: before the end of systole, besides"},
+    {"rate_mid", QUANTITY(vsc_curve_def, rate_mid, VSC_RATE), .allowed = FILLED, .commented = true,
+     .text = "1 1/s", .meaning = "bestel_pressure: always, besides"},
+    {"filling", QUANTITY(vsc_curve_def, filling, VSC_RATE), .allowed = FILLED, .commented = true,
+     .text = "0.4375 1/s", .meaning = "bestel_pressure: rise by the atrium's pressure"},
     {"duration", QUANTITY(vsc_curve_def, duration, VSC_TIME), .allowed = LASTING, .text = "300 ms",
      .meaning = "ramp, half_sine, tanh_pair"},
     {"rise", QUANTITY(vsc_curve_def, rise, VSC_TIME), .allowed = SMOOTH, .commented = true,

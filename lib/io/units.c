@@ -55,6 +55,7 @@ static const quantity quantities[] = {
                          "a damping per area",
                          "5e3 Pa s/m",
                          {"Pa s/m", "kPa s/m", "kPa ms/mm", "kPa s/mm", "N s/m3", "N s/mm3"}},
+    [VSC_RATE] = {"1/ms", "a rate", "5 1/s", {"1/s", "1/ms", "Hz", "kHz"}},
     [VSC_ANGLE] = {"rad", "an angle", "35 deg", {"deg", "degree", "rad", "radian", "mrad"}},
     [VSC_NUMBER] = {"", "a plain number", "0.8", {NULL}},
 };
@@ -97,9 +98,10 @@ static bool same_dimension(const ut_unit *unit, const ut_unit *own, vsc_quantity
   return same;
 }
 
-// What udunits2 would take although no user means it: "kPa)", "3 4 kPa".
-static bool is_plain(const char *unit)
+// What udunits2 would take although no user means it: "kPa)", "3 4 kPa". A rate may begin with 1/.
+static bool is_plain(const char *unit, vsc_quantity kind)
 {
+  if (kind == VSC_RATE && strncmp(unit, "1/", 2) == 0) unit += 2;
   int open = 0;
   for (const char *c = unit; *c != '\0' && open >= 0; c++) open += (*c == '(') - (*c == ')');
   const char first = unit[0];
@@ -110,7 +112,7 @@ typedef enum outcome { CONVERTED, UNKNOWN_UNIT, OTHER_DIMENSION } outcome;
 
 static outcome convert(const char *text, vsc_quantity kind, double *value)
 {
-  if (!is_plain(text)) return UNKNOWN_UNIT;
+  if (!is_plain(text, kind)) return UNKNOWN_UNIT;
   ut_unit *unit = ut_parse(units, text, UT_UTF8);
   if (unit == NULL) return UNKNOWN_UNIT;
   ut_unit *own = ut_parse(units, quantities[kind].unit, UT_ASCII);

@@ -18,6 +18,7 @@ typedef enum vsc_quantity {
   VSC_RIGIDITY,      // mN mm, of a plate against bending
   VSC_BED_STIFFNESS, // kPa/mm, of springs per area
   VSC_BED_DAMPING,   // kPa ms/mm, of dashpots per area
+  VSC_RATE,          // 1/ms
   VSC_ANGLE,         // radians
   VSC_NUMBER,        // no unit
 } vsc_quantity;

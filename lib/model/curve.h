@@ -19,7 +19,8 @@ typedef struct vsc_curve {
 } vsc_curve;
 
 // Tabulates `definition` over its period, or over [0, end_time] when it has none.
-// Fails with VSC_INPUT for a table that is not rising in time, and for lack of memory.
+// Fails with VSC_INPUT for a table that is not rising in time, VSC_NUMERICAL for a driver's equation
+// that cannot be followed (model/curve_driver.h), and for lack of memory.
 vsc_status vsc_curve_build(const vsc_curve_def *definition, double end_time, vsc_curve *curve,
                            vsc_error *error);
 

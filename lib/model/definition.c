@@ -10,6 +10,13 @@ vsc_curve_def vsc_default_curve(vsc_curve_kind kind)
   vsc_curve_def curve = {.kind = kind, .duration = 300, .rise_power = 2, .fall_power = 20};
   curve.rise = kind == VSC_CURVE_TANH_PAIR ? 20 : 100;
   curve.fall = kind == VSC_CURVE_TANH_PAIR ? 20 : 300;
+  curve.start = kind == VSC_CURVE_BESTEL ? 160 : kind == VSC_CURVE_BESTEL_PRESSURE ? 170 : 0;
+  curve.stop = 484;
+  curve.width = 5;
+  curve.rate_up = curve.rate_pre = 0.005;
+  curve.rate_down = -0.03;
+  curve.rate_mid = 0.001;
+  curve.filling = 7e-3 / 16;
   return curve;
 }
 

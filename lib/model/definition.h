@@ -22,11 +22,13 @@ typedef enum vsc_curve_kind {
                           // g1 = ((t-start)/rise)^rise_power, g2 = ((t-start)/fall)^fall_power
   VSC_CURVE_TANH_PAIR,    // (1 + tanh((t-start)/rise))/2 . (1 - tanh((t-start-duration)/fall))/2
   VSC_CURVE_TABLE,        // monotone (Steffen) spline through given points, flat outside them
+  VSC_CURVE_BESTEL,           // a fibre's tension, and
+  VSC_CURVE_BESTEL_PRESSURE,  // the pressure in a ventricle, from equations: model/curve_driver.h
 } vsc_curve_kind;
 
 typedef struct vsc_curve_def {
   vsc_curve_kind kind;  // default CONSTANT
-  double start;         // ms; default 0
+  double start;         // ms; default 0, BESTEL 160, BESTEL_PRESSURE 170
   double duration;      // ms; default 300
   double rise;          // ms; DOUBLE_HILL time constant, TANH_PAIR steepness; default 100 and 20
   double fall;          // ms; likewise; default 300 and 20
@@ -36,6 +38,13 @@ typedef struct vsc_curve_def {
   size_t point_count;   // TABLE: at least 2
   double *times;        // TABLE: point_count, rising, ms; owned
   double *values;       // TABLE: point_count; owned
+  double stop;          // BESTEL and BESTEL_PRESSURE, also below: end of systole, ms; default 484
+  double width;         // gamma, of the switches, ms; default 5
+  double rate_up;       // alpha_max, in systole, 1/ms; default 0.005
+  double rate_down;     // alpha_min, otherwise, 1/ms, below 0; default -0.03
+  double rate_pre;      // BESTEL_PRESSURE: alpha_pre, until the end of systole, 1/ms; default 0.005
+  double rate_mid;      // BESTEL_PRESSURE: alpha_mid, always, 1/ms; default 0.001
+  double filling;       // BESTEL_PRESSURE: sigma_pre/sigma_mid in a second, 1/ms; default 0.4375e-3
 } vsc_curve_def;
 
 typedef enum vsc_active_kind {

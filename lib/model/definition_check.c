@@ -62,6 +62,21 @@ static void check_table(checker *c, const vsc_curve_def *curve)
   }
 }
 
+static void check_driver(checker *c, const vsc_curve_def *curve)
+{
+  need(c, curve->stop > curve->start && isfinite(curve->stop), "curve.stop", curve->stop, "ms",
+       "give a time after the start");
+  need_positive(c, "curve.width", curve->width, "ms", "give a time above zero");
+  need_positive(c, "curve.rate_up", curve->rate_up, "1/ms", "give a rate above zero");
+  need(c, curve->rate_down < 0 && isfinite(curve->rate_down), "curve.rate_down", curve->rate_down,
+       "1/ms", "give a rate below zero");
+  need_not_negative(c, "curve.rate_pre", curve->rate_pre, "1/ms");
+  need_not_negative(c, "curve.rate_mid", curve->rate_mid, "1/ms");
+  need_not_negative(c, "curve.filling", curve->filling, "1/ms");
+  need(c, curve->period == 0 || curve->stop <= curve->period, "curve.period", curve->period, "ms",
+       "shorter than the curve: give a period after its stop, or 0 ms for none");
+}
+
 static void check_curve(checker *c, const vsc_curve_def *curve)
 {
   const bool smooth = curve->kind == VSC_CURVE_DOUBLE_HILL || curve->kind == VSC_CURVE_TANH_PAIR;
@@ -85,6 +100,8 @@ static void check_curve(checker *c, const vsc_curve_def *curve)
        "shorter than the duration after the start: give a longer period, or 0 ms for none");
   need(c, curve->period == 0 || curve->start >= 0, "curve.start", curve->start, "ms",
        "a curve with a period starts at 0 ms or later");
+  if (curve->kind == VSC_CURVE_BESTEL || curve->kind == VSC_CURVE_BESTEL_PRESSURE)
+    check_driver(c, curve);
   if (curve->kind == VSC_CURVE_TABLE) check_table(c, curve);
   if (curve->kind == VSC_CURVE_TABLE && curve->point_count > 0)
     need(c, curve->period == 0 || curve->times[curve->point_count - 1] <= curve->period,

@@ -23,6 +23,7 @@ typedef enum vsc_fiber_source {
   VSC_FIBER_HELICOIDAL,    // along helices round the box's vertical (z) mid-line, `pitch` above the
                            // horizontal,
   VSC_FIBER_RANDOM,        // uniform on the sphere, per element, from `seed`
+  VSC_FIBER_ELLIPSOID,     // transmural helix between two ellipsoids, exact (fibers/ellipsoid.h)
 } vsc_fiber_source;
 
 // A voxel map of two angles. f = (cos el cos az, cos el sin az, sin el) in the axes chosen by
@@ -43,6 +44,15 @@ typedef struct vsc_angle_map_def {
   double length_unit;     // mm per unit of origin and spacing; default 1
 } vsc_angle_map_def;
 
+// A wall between two half ellipsoids of revolution with one centre and long axis, mm.
+typedef struct vsc_ellipsoid_def {
+  double centre[3];    // default 0 0 0
+  double endo_radius;  // of the inner one, across the long axis
+  double endo_length;  // from the centre to its apex
+  double epi_radius;   // the same of the outer one
+  double epi_length;
+} vsc_ellipsoid_def;
+
 typedef struct vsc_fiber_def {
   vsc_fiber_source source;     // default NONE
   vsc_angle_map_def map;       // MAP
@@ -54,9 +64,10 @@ typedef struct vsc_fiber_def {
   double sheet_direction[3];   // CONSTANT: 0 0 0: by rule
   char endo[VSC_NAME];         // HELIX: surface where the depth is 0
   char epi[VSC_NAME];          // HELIX: surface where the depth is 1
-  double endo_angle;    // HELIX: helix angle at the endocardium, radians; default +60 degrees
-  double epi_angle;     // HELIX: at the epicardium, radians; default -60 degrees
-  double long_axis[3];  // HELIX: from apex to base; default 0 0 1
+  double endo_angle;    // HELIX, ELLIPSOID: helix angle at the endocardium, radians; default +60 degrees
+  double epi_angle;     // HELIX, ELLIPSOID: at the epicardium, radians; default -60 degrees
+  double long_axis[3];  // HELIX, ELLIPSOID: from apex to base; default 0 0 1
+  vsc_ellipsoid_def ellipsoid;  // ELLIPSOID
   double pitch;         // HELICOIDAL: radians above the horizontal; default 30 degrees
   unsigned long seed;   // RANDOM: default 1
 } vsc_fiber_def;

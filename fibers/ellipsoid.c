@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fibers/ellipsoid.h"
+
+#include <math.h>
+
+#include "base/vec3.h"
+#include "fibers/helix.h"
+
+enum { HALVINGS = 60 };  // of an interval of 4: to rounding
+
+double vsc_ellipsoid_depth(const vsc_ellipsoid_def *wall, const double long_axis[3],
+                           const double point[3], double outwards[3])
+{
+  double across[3], axis[3] = {long_axis[0], long_axis[1], long_axis[2]};
+  vsc_normalize(axis);
+  vsc_subtract(point, wall->centre, across);
+  const double z = vsc_dot(across, axis);
+  for (int a = 0; a < 3; a++) across[a] -= z * axis[a];
+  const double square = vsc_dot(across, across);
+  double low = -1, high = 3, rs = 1, rl = 1;
+  for (int i = 0; i < HALVINGS; i++) {
+    const double t = (low + high) / 2;
+    rs = (1 - t) * wall->endo_radius + t * wall->epi_radius;
+    rl = (1 - t) * wall->endo_length + t * wall->epi_length;
+    const bool outside = rs <= 0 || rl <= 0 || square / (rs * rs) + z * z / (rl * rl) > 1;
+    if (outside)
+      low = t;
+    else
+      high = t;
+  }
+  for (int a = 0; outwards != NULL && a < 3; a++)
+    outwards[a] = across[a] / (rs * rs) + z * axis[a] / (rl * rl);
+  return (low + high) / 2;
+}
+
+int vsc_ellipsoid_frame(const vsc_fiber_def *definition, const double point[3], double frame[9])
+{
+  double outwards[3];
+  const double depth =
+      vsc_ellipsoid_depth(&definition->ellipsoid, definition->long_axis, point, outwards);
+  const double t = fmin(fmax(depth, 0), 1);
+  const double angle = (1 - t) * definition->endo_angle + t * definition->epi_angle;
+  return vsc_helix_frame(outwards, definition->long_axis, angle, frame);
+}
+
+vsc_status vsc_ellipsoid_check(const vsc_fiber_def *definition, vsc_error *error)
+{
+  const vsc_ellipsoid_def *wall = &definition->ellipsoid;
+  const double axis = vsc_norm(definition->long_axis), place = vsc_norm(wall->centre);
+  if (!(wall->endo_radius > 0 && wall->endo_length > 0 && wall->epi_radius > wall->endo_radius &&
+        wall->epi_length > wall->endo_length && isfinite(wall->epi_radius) &&
+        isfinite(wall->epi_length)))
+    return vsc_fail(error, VSC_INPUT,
+                    "ellipsoid fibres: endo_radius %g and endo_length %g mm must be above 0 and below "
+                    "epi_radius and epi_length, %g and %g mm",
+                    wall->endo_radius, wall->endo_length, wall->epi_radius, wall->epi_length);
+  if (!(isfinite(axis) && axis > 0 && isfinite(place)))
+    return vsc_fail(error, VSC_INPUT,
+                    "ellipsoid fibres: long_axis (%g, %g, %g) must not be zero, centre finite",
+                    definition->long_axis[0], definition->long_axis[1], definition->long_axis[2]);
+  if (!isfinite(definition->endo_angle) || !isfinite(definition->epi_angle))
+    return vsc_fail(error, VSC_INPUT, "ellipsoid fibres: the angles %g and %g must be finite",
+                    definition->endo_angle, definition->epi_angle);
+  return VSC_OK;
+}
