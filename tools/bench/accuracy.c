@@ -127,7 +127,7 @@ static vsc_status measure(const wish *wish, vsc_outcome *outcome, vsc_bench_row 
     row->quantity = q;
     row->failure[0] = '\0';
     if (q->measure(outcome, q, &measured, &why) != VSC_OK)
-      snprintf(row->failure, sizeof row->failure, "%s: %s", q->name, why.text);
+      snprintf(row->failure, sizeof row->failure, "%.60s: %.560s", q->name, why.text);
     row->value = measured.value;
     row->reference = measured.reference;
     row->skipped = measured.skipped;
@@ -177,7 +177,7 @@ static void draw(const wish *wish, const vsc_bench_report *report, const vsc_ben
         (shown == NULL || report->rows[k].of.kind->bit == VSC_BENCH_QUADRATIC))
       shown = &report->rows[k];
   if (shown == NULL) return;
-  char result[PATH_MAX + 2 * VSC_BENCH_TEXT], picture[PATH_MAX + VSC_BENCH_TEXT];
+  char result[PATH_MAX + 3 * VSC_BENCH_TEXT], picture[PATH_MAX + VSC_BENCH_TEXT];
   snprintf(result, sizeof result, "%s/runs/%s=%s", wish->output, shown->of.name, shown->of.name);
   snprintf(picture, sizeof picture, "%s/%s.png", wish->output, problem->name);
   char *words[] = {"plot", "--view", "--title", (char *)problem->title, "-o", picture, result, NULL};

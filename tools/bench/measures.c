@@ -39,7 +39,7 @@ static vsc_status find_node(const vsc_outcome *outcome, const double at[3], size
 vsc_status vsc_measure_move(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
                             vsc_measured *measured, vsc_error *error)
 {
-  size_t node;
+  size_t node = 0;
   const vsc_status status = find_node(outcome, quantity->at, &node, error);
   if (status == VSC_OK) measured->value = outcome->moved[3 * node + (size_t)quantity->axis];
   return status;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/text.h"
 #include "tools/bench/curves.h"
 
 vsc_bench_verdict vsc_bench_judge(const vsc_bench_row *row)
