@@ -11,15 +11,19 @@
 #include "mech/kernel.h"
 #include "run/problem.h"
 #include "solve/explicit.h"
+#include "tools/bench/accuracy.h"
 #include "tools/bench/paper.h"
 #include "tools/shapes.h"
 #include "tools/verbs.h"
 
 static const char help[] =
     "Usage: viscera bench [OPTION]...\n"
+    "       viscera bench accuracy [OPTION]...\n"
     "Million element updates per second: the best of five timings of whole explicit steps on a "
     "block of tets,\n"
-    "on one thread by processor time, on all threads by the wall clock.\n\n"
+    "on one thread by processor time, on all threads by the wall clock. accuracy: instead, problems "
+    "with\n"
+    "known answers, see `viscera bench accuracy --help`.\n\n"
     "  -n, --tets N      a block of about N tets instead of 10 thousand and 1 million\n"
     "  -s, --shuffle     tets and nodes in random order, as from an unstructured file\n"
     "      --paper       instead, Table 1 of Bourguignon & Cani 2000 as CSV\n"
@@ -158,6 +162,7 @@ int vsc_verb_bench(int argc, char **argv)
                                           {"paper", no_argument, NULL, 'p'},
                                           {"help", no_argument, NULL, 'h'},
                                           {0}};
+  if (argc > 1 && strcmp(argv[1], "accuracy") == 0) return vsc_bench_accuracy(argc - 1, argv + 1);
   long tets = 0;
   bool shuffled = false, paper = false;
   for (int c; (c = getopt_long(argc, argv, "n:sh", options, NULL)) != -1;) {

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/bench/curves.h"
+
+#include <math.h>
+
+double vsc_curve_at(size_t count, const double *times, const double *values, double time)
+{
+  if (time <= times[0]) return values[0];
+  size_t k = 1;
+  while (k < count && times[k] < time) k++;
+  if (k == count) return values[count - 1];
+  const double part = (time - times[k - 1]) / (times[k] - times[k - 1]);
+  return values[k - 1] + part * (values[k] - values[k - 1]);
+}
+
+double vsc_relative_distance(size_t count, const double *a, const double *b)
+{
+  double apart = 0, whole = 0;
+  for (size_t k = 0; k < count; k++) {
+    apart += (a[k] - b[k]) * (a[k] - b[k]);
+    whole += b[k] * b[k];
+  }
+  return whole > 0 ? sqrt(apart / whole) : NAN;
+}
+
+double vsc_band_share(size_t count, const double *values, const double *low, const double *high,
+                      double slack)
+{
+  size_t within = 0;
+  for (size_t k = 0; k < count; k++)
+    within += values[k] >= low[k] - slack && values[k] <= high[k] + slack;
+  return count > 0 ? (double)within / (double)count : NAN;
+}
+
+double vsc_observed_order(size_t count, const double *h, const double *errors)
+{
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (size_t k = 0; k < count; k++) {
+    if (!(errors[k] > 0)) continue;
+    const double a = log(h[k]), b = log(errors[k]);
+    n++;
+    x += a;
+    y += b;
+    xx += a * a;
+    xy += a * b;
+  }
+  const double spread = n * xx - x * x;
+  return n >= 2 && spread > 0 ? (n * xy - x * y) / spread : NAN;
+}
+
+double vsc_curve_frequency(size_t count, const double *times, const double *values)
+{
+  double first = NAN, last = NAN, passages = 0;
+  for (size_t k = 1; k < count; k++) {
+    if ((values[k - 1] < 0) == (values[k] < 0)) continue;
+    last = times[k - 1] - values[k - 1] * (times[k] - times[k - 1]) / (values[k] - values[k - 1]);
+    if (passages++ == 0) first = last;
+  }
+  return passages >= 2 ? 0.5 * (passages - 1) / (last - first) : NAN;
+}

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Arithmetic of errors and curves: values given at rising times (or other abscissae).
+#ifndef VSC_TOOLS_BENCH_CURVES_H
+#define VSC_TOOLS_BENCH_CURVES_H
+
+#include <stddef.h>
+
+// The value at `time` between the two nearest of `count` points, linearly; the first or last value
+// outside.
+double vsc_curve_at(size_t count, const double *times, const double *values, double time);
+
+// || a - b || / || b || over `count` numbers (Euclidean norms); NAN where b is 0.
+double vsc_relative_distance(size_t count, const double *a, const double *b);
+
+// The part, 0 to 1, of `count` numbers with low - slack <= value <= high + slack.
+double vsc_band_share(size_t count, const double *values, const double *low, const double *high,
+                      double slack);
+
+// The exponent p of error ~ h^p by least squares of the logarithms, over the points with a positive
+// error; NAN for fewer than two.
+double vsc_observed_order(size_t count, const double *h, const double *errors);
+
+// Oscillations per unit of time: half the number of passages through 0 (linear between points) behind
+// the first, over the time from the first to the last; NAN for fewer than two passages.
+double vsc_curve_frequency(size_t count, const double *times, const double *values);
+
+#endif

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/bench/measures.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <unistd.h>
+
+#include "base/mem.h"
+#include "tools/bench/curves.h"
+#include "tools/results.h"
+
+// ---- nodes
+
+static double body_size(const vsc_mesh *mesh)
+{
+  double low[3], high[3];
+  vsc_mesh_box(mesh, low, high);
+  return hypot(hypot(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
+}
+
+static vsc_status find_node(const vsc_outcome *outcome, const double at[3], size_t *node,
+                            vsc_error *error)
+{
+  const vsc_mesh *mesh = outcome->mesh;
+  double nearest = INFINITY;
+  for (size_t n = 0; n < mesh->node_count; n++) {
+    const double *x = mesh->nodes + 3 * n;
+    const double far = hypot(hypot(x[0] - at[0], x[1] - at[1]), x[2] - at[2]);
+    if (far < nearest) {
+      nearest = far;
+      *node = n;
+    }
+  }
+  if (nearest <= 1e-4 * body_size(mesh)) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT, "no node rests at (%g, %g, %g) mm, the nearest is %g mm away", at[0],
+                  at[1], at[2], nearest);
+}
+
+vsc_status vsc_measure_move(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                            vsc_measured *measured, vsc_error *error)
+{
+  size_t node = 0;
+  const vsc_status status = find_node(outcome, quantity->at, &node, error);
+  if (status == VSC_OK) measured->value = outcome->moved[3 * node + (size_t)quantity->axis];
+  return status;
+}
+
+vsc_status vsc_measure_place(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                             vsc_measured *measured, vsc_error *error)
+{
+  const vsc_status status = vsc_measure_move(outcome, quantity, measured, error);
+  measured->value += quantity->at[quantity->axis];
+  return status;
+}
+
+// Mean length of the first `axes` coordinates at rest and now, of the nodes that rest at `radius`.
+static vsc_status mean_radius(const vsc_outcome *outcome, double radius, int axes, double *mean,
+                              vsc_error *error)
+{
+  const vsc_mesh *mesh = outcome->mesh;
+  double sum = 0, count = 0;
+  for (size_t n = 0; n < mesh->node_count; n++) {
+    const double *x = mesh->nodes + 3 * n, *u = outcome->moved + 3 * n;
+    double rest = 0, now = 0;
+    for (int a = 0; a < axes; a++) {
+      rest += x[a] * x[a];
+      now += (x[a] + u[a]) * (x[a] + u[a]);
+    }
+    if (fabs(sqrt(rest) - radius) > 1e-6 * radius) continue;
+    sum += sqrt(now);
+    count++;
+  }
+  *mean = sum / count;
+  if (count > 0) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT, "no node rests at a radius of %g mm", radius);
+}
+
+vsc_status vsc_measure_sphere(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                              vsc_measured *measured, vsc_error *error)
+{
+  return mean_radius(outcome, quantity->at[0], 3, &measured->value, error);
+}
+
+vsc_status vsc_measure_cylinder(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                                vsc_measured *measured, vsc_error *error)
+{
+  return mean_radius(outcome, quantity->at[0], 2, &measured->value, error);
+}
+
+vsc_status vsc_measure_sphere_move(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                                   vsc_measured *measured, vsc_error *error)
+{
+  const vsc_status status = vsc_measure_sphere(outcome, quantity, measured, error);
+  measured->value -= quantity->at[0];
+  return status;
+}
+
+vsc_status vsc_measure_cylinder_move(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                                     vsc_measured *measured, vsc_error *error)
+{
+  const vsc_status status = vsc_measure_cylinder(outcome, quantity, measured, error);
+  measured->value -= quantity->at[0];
+  return status;
+}
+
+// ---- signals
+
+static vsc_status find_column(const vsc_outcome *outcome, const char *name, const double **values,
+                              vsc_error *error)
+{
+  *values = vsc_signals_find(outcome->signals, name);
+  if (*values != NULL && outcome->signals->rows > 0) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT, "signals.csv has no values of '%s'", name);
+}
+
+vsc_status vsc_measure_signal(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                              vsc_measured *measured, vsc_error *error)
+{
+  const double *values;
+  const vsc_status status = find_column(outcome, quantity->column, &values, error);
+  if (status == VSC_OK) measured->value = values[outcome->signals->rows - 1];
+  return status;
+}
+
+vsc_status vsc_measure_frequency(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                                 vsc_measured *measured, vsc_error *error)
+{
+  const double *time, *values;
+  vsc_status status = find_column(outcome, "time", &time, error);
+  if (status == VSC_OK) status = find_column(outcome, quantity->column, &values, error);
+  if (status == VSC_OK)
+    measured->value = vsc_curve_frequency(outcome->signals->rows, time, values);
+  return status;
+}
+
+// ---- reference curves
+
+// Reads quantity->file; *table is NULL, and measured->skipped true, where there is no such file.
+static vsc_status open_reference(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                                 vsc_signals **table, vsc_measured *measured, vsc_error *error)
+{
+  char file[VSC_RESULT_PATH];
+  snprintf(file, sizeof file, "%s/%s", outcome->reference != NULL ? outcome->reference : "",
+           quantity->file);
+  *table = NULL;
+  measured->skipped = outcome->reference == NULL || access(file, R_OK) != 0;
+  return measured->skipped ? VSC_OK : vsc_signals_read(file, table, error);
+}
+
+// s of a node of the mid-wall line, the part of the way from u = -pi to -arccos (5 / 18.5) of
+//   rho = 8.5 sin u, z = 18.5 cos u;
+// NAN for others.
+static double midline_part(const double x[3])
+{
+  const double u = -acos(fmax(-1, fmin(1, x[2] / 18.5)));
+  const double wall = x[0] * x[0] / (8.5 * 8.5) + x[2] * x[2] / (18.5 * 18.5);
+  if (fabs(x[1]) > 1e-6 || x[0] > 1e-6 || fabs(wall - 1) > 2e-3) return NAN;
+  return (u + M_PI) / (M_PI - acos(5 / 18.5));
+}
+
+vsc_status vsc_measure_midline_peak(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                                    vsc_measured *measured, vsc_error *error)
+{
+  (void)quantity;
+  measured->value = -INFINITY;
+  for (size_t n = 0; n < outcome->mesh->node_count; n++)
+    if (!isnan(midline_part(outcome->mesh->nodes + 3 * n)))
+      measured->value = fmax(measured->value, outcome->moved[3 * n + 1]);
+  if (isfinite(measured->value)) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT, "no node rests on the mid-wall line");
+}
+
+vsc_status vsc_measure_midline(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                               vsc_measured *measured, vsc_error *error)
+{
+  static const char *const names[3] = {"x_mm", "y_mm", "z_mm"};
+  vsc_signals *table;
+  const vsc_status status = open_reference(outcome, quantity, &table, measured, error);
+  if (status != VSC_OK || table == NULL) return status;
+  const double *s = vsc_signals_find(table, "s");
+  measured->value = -INFINITY;
+  for (size_t n = 0; n < outcome->mesh->node_count; n++) {
+    const double *x = outcome->mesh->nodes + 3 * n, *u = outcome->moved + 3 * n;
+    const double part = midline_part(x);
+    if (isnan(part) || part < 0.02) continue;
+    double apart = 0;
+    for (int a = 0; a < 3; a++) {
+      const double there = vsc_curve_at(table->rows, s, vsc_signals_find(table, names[a]), part);
+      apart += (x[a] + u[a] - there) * (x[a] + u[a] - there);
+    }
+    measured->value = fmax(measured->value, sqrt(apart));
+  }
+  vsc_signals_free(table);
+  if (isfinite(measured->value)) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT, "no node rests on the mid-wall line");
+}
+
+// A column of the reference's component: NAME_u<x|y|z>_<what>_mm.
+static const double *reference_column(const vsc_signals *table, const char *name, int axis,
+                                      const char *what)
+{
+  char column[VSC_NAME];
+  snprintf(column, sizeof column, "%s_u%c_%s_mm", name, "xyz"[axis], what);
+  return vsc_signals_find(table, column);
+}
+
+// The history of component `axis` at the reference's times into values[table->rows].
+static vsc_status sample_history(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                                 const vsc_signals *table, int axis, double *values,
+                                 vsc_error *error)
+{
+  char column[VSC_NAME];
+  const double *time, *history, *at = vsc_signals_find(table, "time_s");
+  snprintf(column, sizeof column, "%s%c", quantity->column, "xyz"[axis]);
+  vsc_status status = find_column(outcome, "time", &time, error);
+  if (status == VSC_OK) status = find_column(outcome, column, &history, error);
+  if (status != VSC_OK) return status;
+  if (at == NULL || reference_column(table, quantity->file_column, axis, "mean") == NULL)
+    return vsc_fail(error, VSC_INPUT, "%s: no columns time_s and %s_u%c_mean_mm", quantity->file,
+                    quantity->file_column, "xyz"[axis]);
+  for (size_t r = 0; r < table->rows; r++)
+    values[r] = vsc_curve_at(outcome->signals->rows, time, history, at[r]);
+  return VSC_OK;
+}
+
+vsc_status vsc_measure_history(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                               vsc_measured *measured, vsc_error *error)
+{
+  vsc_signals *table;
+  vsc_status status = open_reference(outcome, quantity, &table, measured, error);
+  if (status != VSC_OK || table == NULL) return status;
+  double *ours, *mean = NULL;
+  const size_t rows = table->rows;
+  if (!VSC_NEW(ours, 3 * rows) || !VSC_NEW(mean, 3 * rows))
+    status = vsc_fail_memory(error, "a history");
+  for (int a = 0; a < 3 && status == VSC_OK; a++) {
+    status = sample_history(outcome, quantity, table, a, ours + (size_t)a * rows, error);
+    for (size_t r = 0; r < rows && status == VSC_OK; r++)
+      mean[(size_t)a * rows + r] = reference_column(table, quantity->file_column, a, "mean")[r];
+  }
+  if (status == VSC_OK) measured->value = vsc_relative_distance(3 * rows, ours, mean);
+  vsc_free(ours);
+  vsc_free(mean);
+  vsc_signals_free(table);
+  return status;
+}
+
+// Reference curves are given to 1e-4 mm, and differ by less at rest.
+static const double band_slack = 0.01;
+
+vsc_status vsc_measure_band(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                            vsc_measured *measured, vsc_error *error)
+{
+  vsc_signals *table;
+  vsc_status status = open_reference(outcome, quantity, &table, measured, error);
+  if (status != VSC_OK || table == NULL) return status;
+  double *ours;
+  if (!VSC_NEW(ours, table->rows)) status = vsc_fail_memory(error, "a history");
+  if (status == VSC_OK) status = sample_history(outcome, quantity, table, quantity->axis, ours, error);
+  if (status == VSC_OK)
+    measured->value =
+        100 * vsc_band_share(table->rows, ours,
+                             reference_column(table, quantity->file_column, quantity->axis, "min"),
+                             reference_column(table, quantity->file_column, quantity->axis, "max"),
+                             band_slack);
+  vsc_free(ours);
+  vsc_signals_free(table);
+  return status;
+}

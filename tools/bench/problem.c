@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/bench/problem.h"
+
+#include <stdio.h>
+
+#include "tools/bench/problems.h"
+
+// Stabilisation of tets with shared volumes is the scenes' own, the shear modulus; bricks need none.
+const vsc_bench_kind vsc_bench_kinds[] = {
+    {VSC_BENCH_PLAIN, "plain", "", {"mesh.order=1", "volume=element"}},
+    {VSC_BENCH_NODAL, "nodal", "", {"mesh.order=1", "volume=nodal"}},
+    {VSC_BENCH_SMOOTHED, "smoothed", "", {"mesh.order=1", "volume=nodal", "tets=smoothed"}},
+    {VSC_BENCH_QUADRATIC, "quadratic", "", {"mesh.order=2"}},
+    {VSC_BENCH_HEXES, "hexes", "--element=hex", {"mesh.order=1", "materials[0].stabilization=0 kPa"}},
+    {VSC_BENCH_WEDGES, "wedges", "--element=wedge", {"mesh.order=1", "materials[0].stabilization=0 kPa"}},
+};
+const size_t vsc_bench_kind_count = sizeof vsc_bench_kinds / sizeof vsc_bench_kinds[0];
+
+const vsc_bench_problem *const vsc_bench_problems[] = {
+    &vsc_bench_land_p1,
+    &vsc_bench_land_p2,
+    &vsc_bench_land_p3,
+    &vsc_bench_sagging_block,
+    &vsc_bench_beam,
+};
+const size_t vsc_bench_problem_count = sizeof vsc_bench_problems / sizeof vsc_bench_problems[0];
+
+// The first or, after *size, next size of the problem that this kind is tried on; NULL behind the last.
+static const vsc_bench_size *next_size(const vsc_bench_problem *problem, const vsc_bench_kind *kind,
+                                       const vsc_bench_size *size)
+{
+  for (size = size == NULL ? problem->sizes : size + 1; size < problem->sizes + problem->size_count;
+       size++)
+    if ((size->kinds & kind->bit) != 0) return size;
+  return NULL;
+}
+
+// Moves on by one kind, variant or problem; false behind the last.
+static bool next_series(vsc_bench_case *at, size_t *problem)
+{
+  if (at->problem == NULL) {
+    *problem = 0;
+  } else if (++at->kind < vsc_bench_kinds + vsc_bench_kind_count) {
+    return true;
+  } else if (++at->variant < at->problem->variants + at->problem->variant_count) {
+    at->kind = vsc_bench_kinds;
+    return true;
+  } else {
+    ++*problem;
+  }
+  if (*problem == vsc_bench_problem_count) return false;
+  at->problem = vsc_bench_problems[*problem];
+  at->variant = at->problem->variants;
+  at->kind = vsc_bench_kinds;
+  return true;
+}
+
+bool vsc_bench_next(vsc_bench_case *at)
+{
+  size_t problem = 0;
+  while (at->problem != NULL && vsc_bench_problems[problem] != at->problem) problem++;
+  const vsc_bench_size *size =
+      at->problem != NULL ? next_size(at->problem, at->kind, at->size) : NULL;
+  at->coarsest = size == NULL;
+  while (size == NULL) {
+    if (!next_series(at, &problem)) return false;
+    size = next_size(at->problem, at->kind, NULL);
+  }
+  at->size = size;
+  snprintf(at->name, sizeof at->name, "%s%s%s-%s-%zu", at->problem->name,
+           at->variant->name[0] != '\0' ? "-" : "", at->variant->name, at->kind->name,
+           (size_t)(size - at->problem->sizes) + 1);
+  return true;
+}

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The problems of `viscera bench accuracy`, each defined with its sources in problems_*.c.
+#ifndef VSC_TOOLS_BENCH_PROBLEMS_H
+#define VSC_TOOLS_BENCH_PROBLEMS_H
+
+#include "tools/bench/problem.h"
+
+#define VSC_COUNTED(array) array, sizeof(array) / sizeof((array)[0])
+
+// Land et al. 2015, Proc. R. Soc. A 471:20150641.
+extern const vsc_bench_problem vsc_bench_land_p1;  // a beam bends under pressure
+extern const vsc_bench_problem vsc_bench_land_p2;  // a ventricle is inflated
+extern const vsc_bench_problem vsc_bench_land_p3;  // a ventricle is inflated and contracts
+
+// Closed forms and values on which independent programs agree.
+extern const vsc_bench_problem vsc_bench_sagging_block;  // a soft cube held at one face
+extern const vsc_bench_problem vsc_bench_beam;           // Timoshenko's, down to a Poisson ratio of 0.4999
+
+#endif
