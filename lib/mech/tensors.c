@@ -251,8 +251,8 @@ static void read_patch(void *context, size_t p, int thread)
   const double *w = model->solve.kind == VSC_SOLVE_EQUILIBRIUM ? NULL : r->state->v;
   vsc_patch_work work = {0};
   if (stress)
-    work = vsc_patch_prepare(model, patch, r->state->x, w, r->state->time, &r->state->scratch,
-                             thread);
+    work = vsc_patch_prepare(model, patch, r->state->x, w, NULL, r->state->time,
+                             &r->state->scratch, thread);
   for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++) {
     const pack_tensors tensors = stress ? stress_of(&work, model, patch, k, r->state)
                                         : strain_of(model, patch, k, r->state->x);

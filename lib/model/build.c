@@ -9,6 +9,7 @@
 #include "model/mixture.h"
 #include "model/model.h"
 #include "model/patches.h"
+#include "model/small_strain.h"
 #include "model/terms.h"
 
 // The material whose list of regions holds `region`; else the one without a list (inclusions have
@@ -134,6 +135,17 @@ static void copy_moduli(const vsc_material_def *def, vsc_volume_kind volume, vsc
   memcpy(material->damping, def->damping, sizeof material->damping);
 }
 
+// Without a stabilisation of its own a tissue law takes its shear modulus: frames that share a volume
+// collapse under large loads otherwise.
+static void complete_stabilization(const vsc_definition *definition, const vsc_model *model,
+                                   vsc_material *material)
+{
+  if (!vsc_law_is_of_strain(material->law) || material->law == VSC_LAW_SPRINGS ||
+      definition->volume != VSC_VOLUME_NODAL || material->stabilization > 0)
+    return;
+  material->stabilization = material->element_modulus = vsc_material_shear(model, material);
+}
+
 static bool has_coupling(const vsc_material *material)
 {
   return material->coupling[0] != 0 || material->coupling[1] != 0 || material->coupling[2] != 0;
@@ -158,6 +170,7 @@ static vsc_status copy_material(const vsc_material_def *def, const vsc_definitio
   if (vsc_law_is_of_strain(def->law)) copy_moduli(def, definition->volume, material);
   if (def->law == VSC_LAW_SPRINGS) copy_axes(def, material, model);
   copy_law(def, material);
+  complete_stabilization(definition, model, material);
   if (def->law == VSC_LAW_PAPER) material->paper = def->paper;
   if (def->law == VSC_LAW_CLASSICAL) material->classical = def->classical;
   material->active = def->active.kind;
