@@ -67,7 +67,9 @@ vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double u
   const double start = state->time, way = until - start, load0 = state->steps > 0 ? 1 : 0;
   double *x = state->scratch.trial;
   double done = 0, increment = 1;
-  vsc_newton_begin(newton);
+  state->scratch.load = 1;
+  vsc_force(model, state->x, NULL, until, &state->scratch, state->force);
+  vsc_newton_begin(newton, state->force);
   while (done < 1) {
     const double next = done + increment > 1 - SHORTEST ? 1 : done + increment;
     statics s = {model, state, start + next * way};

@@ -240,7 +240,8 @@ vsc_status vsc_implicit_to(const vsc_model *model, vsc_state *state, double unti
 {
   stepper *s = state->solver;
   const double way = until - state->time;
-  vsc_newton_begin(s->newton);
+  vsc_force(model, state->x, state->v, until, &state->scratch, state->force);
+  vsc_newton_begin(s->newton, state->force);
   while (state->time < until * (1 - 1e-12)) {
     const double rest = until - state->time;
     const double parts = fmax(ceil(rest / state->limit.step * (1 - 1e-9)), 1);

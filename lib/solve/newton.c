@@ -52,11 +52,6 @@ void vsc_newton_free(vsc_newton *newton)
   vsc_free(newton);
 }
 
-void vsc_newton_begin(vsc_newton *newton)
-{
-  vsc_linear_forget(newton->linear);
-  newton->scale = newton->floor = 0;
-}
 
 double vsc_body_size(const vsc_model *model)
 {
@@ -112,6 +107,13 @@ static double whole_norm(const vsc_model *model, const double *r)
   return sqrt(sum);
 }
 
+void vsc_newton_begin(vsc_newton *newton, const double *force)
+{
+  vsc_linear_forget(newton->linear);
+  newton->scale = whole_norm(newton->model, force);
+  newton->floor = 0;
+}
+
 static void write_row(vsc_newton *newton, const vsc_newton_row *row)
 {
   if (newton->row_count == newton->row_room) {
@@ -162,16 +164,14 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
   for (int k = 0; k <= VSC_MOST_NEWTON; k++) {
     balance->residual(balance->context, x, newton->r);
     const double norm = free_norm(model, newton->r);
-    if (k == 0) {
-      first = norm;
-      newton->scale = fmax(newton->scale, whole_norm(model, newton->r));
-    }
+    if (k == 0) first = norm;
     const vsc_linear_counts counts = vsc_linear_counted(newton->linear);
     const double relative = newton->scale > 0 ? norm / newton->scale : 0;
     vsc_newton_row row = {time, load, k, relative, 0, 0};
     *iterations = k;
     if (relative <= tolerance || norm <= newton->floor || (k > 0 && stands_still(newton))) {
       write_row(newton, &row);
+      newton->scale = fmax(newton->scale, whole_norm(model, newton->r));
       return VSC_OK;
     }
     if (!isfinite(norm) || norm > DIVERGED * fmax(first, tolerance * newton->scale) || k == VSC_MOST_NEWTON) {

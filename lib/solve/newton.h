@@ -37,7 +37,7 @@ typedef struct vsc_newton {
   vsc_linear *linear;
   double *r, *d, *trial, *before;  // node_count x 4
   double size;            // of the body, mm
-  double scale;           // largest |r| at the start of a solution so far, reactions included, mN
+  double scale;           // of the forces at work, mN
   double floor;           // |r| below which there is rounding only, mN
   size_t row_count, row_room;
   vsc_newton_row *rows;   // since they were last taken; owned
@@ -50,8 +50,10 @@ vsc_status vsc_newton_create(const vsc_model *model, vsc_newton **newton, vsc_er
 
 void vsc_newton_free(vsc_newton *newton);  // NULL is fine
 
-// To be called before the first solution of a row: forgets what a restart would not know.
-void vsc_newton_begin(vsc_newton *newton);
+// To be called before the first solution of a row: forgets what a restart would not know, and takes the
+// norm of `force` (node_count x 4), the forces where the row starts under the loads of its end, for the
+// scale of forces; reactions of solutions raise it.
+void vsc_newton_begin(vsc_newton *newton, const double *force);
 
 // Solves from x (node_count x 4), which becomes the solution, to |r| <= tolerance x the scale of
 // forces. `time` and `load` go into the rows. VSC_NUMERICAL, with plain words why, when it does
