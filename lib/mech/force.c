@@ -247,7 +247,7 @@ vsc_patch_work vsc_patch_prepare(const vsc_model *model, const vsc_patch *patch,
   vsc_kernel_choice choice;
   vsc_patch_work work = prepare(&e, patch, &local, &choice);
   if (!choice.damping) work.w = NULL;
-  if (before != NULL) gather(model, patch, before, local.f);
+  if (before != NULL) vsc_gather_nodes(model, patch, before, local.f);
   work.before = before != NULL ? local.f : NULL;
   return work;
 }
