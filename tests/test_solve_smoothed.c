@@ -66,7 +66,7 @@ static double sinking(vsc_mesh *mesh, vsc_tets_kind tets, vsc_linear_kind linear
 }
 
 // Of what two layers of plain tets, their volumes averaged, lack of four layers of smoothed ones, two layers
-// of smoothed ones lack less than two thirds. (Six layers of hexahedra come to 4.3 mm.)
+// of smoothed ones lack less than two thirds.
 static void smoothed_tets_bend_more_easily(void **state)
 {
   (void)state;
