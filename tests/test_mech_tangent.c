@@ -127,6 +127,23 @@ static void tangents_are_derivatives_when_active(void **state)
   }
 }
 
+// A law that is not free of stress at rest by itself, with viscosity, on the edges of smoothed tets.
+static void tangents_of_smoothed_tissue_are_derivatives(void **state)
+{
+  (void)state;
+  random_body body;
+  vsc_material_def material = vsc_default_material();
+  material.law = VSC_LAW_NEO_HOOKEAN;
+  material.shear = 7;
+  material.viscosity = 0.4;
+  material.volume_modulus = 60;
+  material.stabilization = 4;
+  kinds_open_tets(&body, mesh_of(ALL_TETS, 3, 31), &material, VSC_VOLUME_NODAL, VSC_TETS_SMOOTHED, 32);
+  check_by_positions(&body);
+  check_by_velocities(&body);
+  body_close(&body);
+}
+
 // A pressure all round and springs and dashpots on a surface.
 static void tangents_have_the_loads_in_them(void **state)
 {
@@ -228,6 +245,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(tangents_are_derivatives_for_every_kind),
       cmocka_unit_test(tangents_are_derivatives_when_active),
+      cmocka_unit_test(tangents_of_smoothed_tissue_are_derivatives),
       cmocka_unit_test(tangents_have_the_loads_in_them),
       cmocka_unit_test(tangents_have_the_same_bits_on_any_number_of_threads),
       cmocka_unit_test(block_matrices_multiply),
