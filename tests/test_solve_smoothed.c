@@ -73,7 +73,6 @@ static void smoothed_tets_bend_more_easily(void **state)
   const double plain = sinking(block_of(20, 2, 2, 0.5, 0.1), VSC_TETS_PLAIN, VSC_LINEAR_AUTO);
   const double smoothed = sinking(block_of(20, 2, 2, 0.5, 0.1), VSC_TETS_SMOOTHED, VSC_LINEAR_AUTO);
   const double fine = sinking(block_of(40, 4, 4, 0.25, 0.1), VSC_TETS_SMOOTHED, VSC_LINEAR_AUTO);
-  print_message("plain %.4f smoothed %.4f finer %.4f mm\n", plain, smoothed, fine);
   assert_true(smoothed < fine && fine - smoothed < 0.65 * (fine - plain));
 }
 
