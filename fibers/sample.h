@@ -64,14 +64,6 @@ vsc_status vsc_fibers_fill(const vsc_mesh *mesh, vsc_axes *axes, size_t *filled,
 // asin(fz). A fibre along z has azimuth 0 and elevation 90.
 void vsc_fiber_angles(const double fiber[3], double *azimuth, double *elevation);
 
-// sum += factor v v^T, as xx, xy, xz, yy, yz, zz.
-void vsc_add_square(const double v[3], double factor, double sum[6]);
-
-// The unit eigenvector `axis` of the largest eigenvalue of a symmetric matrix (xx, xy, xz, yy, yz,
-// zz) by GSL; `values` (may be NULL) takes the eigenvalues, largest first. Returns 0 when the
-// matrix is not finite or zero; else 1.
-int vsc_top_axis(const double matrix[6], double axis[3], double values[3]);
-
 // Sets elements, with_data, passive and the percentiles of azimuth and elevation from `axes`.
 vsc_status vsc_fiber_describe(const vsc_axes *axes, vsc_fiber_report *report, vsc_error *error);
 

@@ -84,17 +84,25 @@ static inline vsc_material_def classical_material(void)
 }
 
 // The body of `material` on a mesh; body_close frees it. The material's arrays stay the caller's.
-static inline void kinds_open(random_body *body, vsc_mesh *mesh, const vsc_material_def *material,
-                              vsc_volume_kind volume, uint64_t seed)
+static inline void kinds_open_tets(random_body *body, vsc_mesh *mesh,
+                                   const vsc_material_def *material, vsc_volume_kind volume,
+                                   vsc_tets_kind tets, uint64_t seed)
 {
   *body = (random_body){.mesh = mesh, .axes = random_axes_for(mesh, seed)};
   body->materials[0] = *material;
   body->definition = vsc_default_definition();
   body->definition.end_time = 1000;
   body->definition.volume = volume;
+  body->definition.tets = tets;
   body->definition.material_count = 1;
   body->definition.materials = body->materials;
   body_build(body);
+}
+
+static inline void kinds_open(random_body *body, vsc_mesh *mesh, const vsc_material_def *material,
+                              vsc_volume_kind volume, uint64_t seed)
+{
+  kinds_open_tets(body, mesh, material, volume, VSC_TETS_PLAIN, seed);
 }
 
 // Stored energy at positions x (mesh's order).

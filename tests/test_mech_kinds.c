@@ -13,22 +13,34 @@ typedef struct variant {
   vsc_law law;
   vsc_volume_kind volume;
   bool gradient, balanced_forces, balanced_moments;
+  vsc_tets_kind tets;
 } variant;
 
 // The paper's angular forces have no potential and turn the element; its radial forces, and the
 // springs to the barycentre, which pull at the corner only, push it.
 static const variant variants[] = {
-    {"hexahedra", ALL_HEXES, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true},
-    {"all kinds, nodes share", ALL_KINDS, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true},
-    {"all kinds, elements alone", ALL_KINDS, VSC_LAW_SPRINGS, VSC_VOLUME_ELEMENT, true, true, true},
-    {"tets", ALL_TETS, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true},
-    {"quadratic tets", ALL_TETS10, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true},
-    {"quadratic tets alone", ALL_TETS10, VSC_LAW_SPRINGS, VSC_VOLUME_ELEMENT, true, true, true},
-    {"paper tets", ALL_TETS, VSC_LAW_PAPER, VSC_VOLUME_NODAL, false, false, false},
-    {"paper hexahedra", ALL_HEXES, VSC_LAW_PAPER, VSC_VOLUME_NODAL, false, false, false},
-    {"classical tets", ALL_TETS, VSC_LAW_CLASSICAL, VSC_VOLUME_NODAL, true, true, true},
-    {"classical hexahedra", ALL_HEXES, VSC_LAW_CLASSICAL, VSC_VOLUME_NODAL, true, true, true},
-    {"classical, all kinds", ALL_KINDS, VSC_LAW_CLASSICAL, VSC_VOLUME_NODAL, true, true, true},
+    {"hexahedra", ALL_HEXES, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true, VSC_TETS_PLAIN},
+    {"all kinds, nodes share", ALL_KINDS, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true,
+     VSC_TETS_PLAIN},
+    {"all kinds, elements alone", ALL_KINDS, VSC_LAW_SPRINGS, VSC_VOLUME_ELEMENT, true, true, true,
+     VSC_TETS_PLAIN},
+    {"tets", ALL_TETS, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true, VSC_TETS_PLAIN},
+    {"quadratic tets", ALL_TETS10, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true,
+     VSC_TETS_PLAIN},
+    {"quadratic tets alone", ALL_TETS10, VSC_LAW_SPRINGS, VSC_VOLUME_ELEMENT, true, true, true,
+     VSC_TETS_PLAIN},
+    {"smoothed tets", ALL_TETS, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true, VSC_TETS_SMOOTHED},
+    {"smoothed, all kinds", ALL_KINDS, VSC_LAW_SPRINGS, VSC_VOLUME_ELEMENT, true, true, true,
+     VSC_TETS_SMOOTHED},
+    {"paper tets", ALL_TETS, VSC_LAW_PAPER, VSC_VOLUME_NODAL, false, false, false, VSC_TETS_PLAIN},
+    {"paper hexahedra", ALL_HEXES, VSC_LAW_PAPER, VSC_VOLUME_NODAL, false, false, false,
+     VSC_TETS_PLAIN},
+    {"classical tets", ALL_TETS, VSC_LAW_CLASSICAL, VSC_VOLUME_NODAL, true, true, true,
+     VSC_TETS_PLAIN},
+    {"classical hexahedra", ALL_HEXES, VSC_LAW_CLASSICAL, VSC_VOLUME_NODAL, true, true, true,
+     VSC_TETS_PLAIN},
+    {"classical, all kinds", ALL_KINDS, VSC_LAW_CLASSICAL, VSC_VOLUME_NODAL, true, true, true,
+     VSC_TETS_PLAIN},
 };
 enum { VARIANTS = sizeof variants / sizeof variants[0] };
 
@@ -38,7 +50,7 @@ static void open_variant(random_body *body, const variant *v, size_t n, uint64_t
   static vsc_pair_def pairs[2];
   const vsc_material_def materials[] = {springs_material(axes, pairs), paper_material(),
                                         classical_material()};
-  kinds_open(body, mesh_of(v->mesh, n, seed), &materials[v->law], v->volume, seed + 1);
+  kinds_open_tets(body, mesh_of(v->mesh, n, seed), &materials[v->law], v->volume, v->tets, seed + 1);
 }
 
 // |(E(x + h d) - E(x - h d))/2h + f . d| falls as h^2.

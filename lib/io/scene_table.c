@@ -146,6 +146,9 @@ static const vsc_word volumes[] = {{"nodal", VSC_VOLUME_NODAL},
                                    {"element", VSC_VOLUME_ELEMENT},
                                    {NULL, 0}};
 
+static const vsc_word tets_kinds[] = {
+    {"plain", VSC_TETS_PLAIN}, {"smoothed", VSC_TETS_SMOOTHED}, {NULL, 0}};
+
 static const vsc_word mass_kinds[] = {{"lumped", VSC_MASS_LUMPED},
                                       {"voronoi", VSC_MASS_VORONOI},
                                       {"equal", VSC_MASS_EQUAL},
@@ -172,6 +175,9 @@ static const vsc_row vsc_scene_group_rows[] = {
      .meaning = "vessels that the mesh does not resolve"},
     {"volume", CHOICE(vsc_scene, definition.volume, volumes), .text = "nodal",
      .meaning = "elements that share a volume ratio: all round a node; or element: each alone"},
+    {"tets", CHOICE(vsc_scene, definition.tets, tets_kinds), .text = "plain",
+     .meaning = "linear tets alone; or smoothed: laws see the mean strain round each edge (walls of two "
+                "layers and more)"},
     {"keep_volume", CHOICE(vsc_scene, definition.kept_volume, kept_volumes), .text = "none",
      .meaning = "to rounding, by multipliers: total, region (each material), node, element"},
     {"masses", CHOICE(vsc_scene, definition.masses, mass_kinds), .text = "lumped",

@@ -23,11 +23,10 @@ static void paper_law(const vsc_model *model, const vsc_patch *patch, size_t k, 
   law->active_axial = paper->active * r[0] * r[0] * inverse;
 }
 
-vsc_pack_law vsc_pack_law_of(const vsc_model *model, const vsc_patch *patch, size_t k)
+// Of the moduli of `mixture`, or without one of the material's own.
+static vsc_pack_law law_of(const vsc_material *material, const vsc_mixture *mixture)
 {
-  const vsc_material *material = &model->materials[patch->material];
-  const vsc_mixture moduli =
-      vsc_moduli_or(material, patch->mixed ? vsc_pack_mixture(model, patch, k) : NULL);
+  const vsc_mixture moduli = vsc_moduli_or(material, mixture);
   vsc_pack_law law = {.springs.rest_stretch = vsc_splat(1),
                       .volume_modulus = moduli.volume_modulus,
                       .stabilization = moduli.stabilization,
@@ -40,6 +39,18 @@ vsc_pack_law vsc_pack_law_of(const vsc_model *model, const vsc_patch *patch, siz
   memcpy(law.coupling, moduli.coupling, sizeof moduli.coupling);
   law.active_axial =
       law.springs.axial[0] + law.share * (material->active_stiffness - material->axial[0]);
+  return law;
+}
+
+vsc_pack_law vsc_material_law(const vsc_material *material)
+{
+  return law_of(material, NULL);
+}
+
+vsc_pack_law vsc_pack_law_of(const vsc_model *model, const vsc_patch *patch, size_t k)
+{
+  vsc_pack_law law = law_of(&model->materials[patch->material],
+                            patch->mixed ? vsc_pack_mixture(model, patch, k) : NULL);
   if (patch->law_data) paper_law(model, patch, k, &law);
   return law;
 }

@@ -63,6 +63,9 @@ typedef struct vsc_pack_law {
   vsc_wide share;  // of the own material: 1 without inclusions
 } vsc_pack_law;
 
+// Of a material without inclusions.
+vsc_pack_law vsc_material_law(const vsc_material *material);
+
 // Not inlined: called once for a pack.
 vsc_pack_law vsc_pack_law_of(const vsc_model *model, const vsc_patch *patch, size_t k);
 

@@ -92,6 +92,29 @@ static vsc_wide viscous_power(vsc_wide viscosity, const vsc_wide3 g[3], const vs
   return viscosity * square;
 }
 
+// Four frames of any law of strain, which stand for the volumes V.
+static void add_law(const vsc_model *model, const vsc_material *material, const vsc_pack_law *law,
+                    vsc_wide V, const vsc_wide3 g[3], const vsc_wide3 rate[3],
+                    vsc_pack_energies *sum)
+{
+  if (material->law == VSC_LAW_SPRINGS)
+    add_springs(model, material, law, V, g, rate, sum);
+  else
+    add_tissue(material, V, g, sum);
+  sum->dissipation += V * viscous_power(law->viscosity, g, rate);
+}
+
+vsc_pack_energies vsc_edge_energies_of(const vsc_model *model, const vsc_edge_work *work, size_t k)
+{
+  const vsc_pack_law law = vsc_material_law(work->material);
+  vsc_pack_energies sum = {0};
+  vsc_wide3 g[3], rate[3] = {0};
+  vsc_edge_axes(work, k, work->gradient, g);
+  if (work->rate != NULL) vsc_edge_axes(work, k, work->rate, rate);
+  add_law(model, work->material, &law, work->frames[k].V, g, rate, &sum);
+  return sum;
+}
+
 static vsc_pack_energies cells(const vsc_model *model, const vsc_patch *patch, size_t k,
                                const double *x, const double *v)
 {
@@ -107,11 +130,7 @@ static vsc_pack_energies cells(const vsc_model *model, const vsc_patch *patch, s
     vsc_pack_axes(model, patch, k, q, x, g);
     if (model->terms.damping) vsc_pack_axes(model, patch, k, q, v, rate);
     const vsc_wide J = vsc_pack_ratio(g);
-    if (material->law == VSC_LAW_SPRINGS)
-      add_springs(model, material, &law, V, g, rate, &sum);
-    else
-      add_tissue(material, V, g, &sum);
-    sum.dissipation += V * viscous_power(law.viscosity, g, rate);
+    if (!patch->smoothed) add_law(model, material, &law, V, g, rate, &sum);
     sum.volume +=
         V * volume_energy(patch->family == VSC_TETS ? law.element_modulus : law.stabilization, J);
     rest += V;

@@ -6,6 +6,8 @@
 #include "base/parallel.h"
 #include "mech/kernel.h"
 #include "mech/loads.h"
+#include "mech/patch_nodes.h"
+#include "mech/smoothed.h"
 #include "model/law_volume.h"
 
 // What the pieces of one evaluation share.
@@ -35,16 +37,6 @@ static local_arrays local_of(const evaluation *e, int thread)
   local.f = local.w + 4 * nodes;
   local.pressure = local.f + 4 * nodes;
   return local;
-}
-
-static void gather(const vsc_model *model, const vsc_patch *patch, const double *from,
-                   double *local)
-{
-  memcpy(local, from + 4 * (size_t)patch->first_node, 4 * patch->own_count * sizeof *local);
-  vsc_wide *to = (vsc_wide *)(local + 4 * (size_t)patch->own_count);
-  const uint32_t *shared = model->shared + patch->first_shared;
-  for (uint32_t n = 0; n < patch->shared_count; n++)
-    to[n] = *(const vsc_wide *)(from + 4 * (size_t)shared[n]);
 }
 
 // The deformed volume of a shared node's group: the sum of its parts, in the order of the patches.
@@ -116,7 +108,7 @@ static void patch_volume(void *context, size_t p, int thread)
   const size_t count = patch->own_count + patch->shared_count;
   memset(local.f, 0, count * sizeof *local.f);
   if (vsc_patch_shares_volume(e->model, patch)) {
-    gather(e->model, patch, e->x, local.x);
+    vsc_gather_nodes(e->model, patch, e->x, local.x);
     const vsc_patch_work work = {.packs = e->model->store + patch->packs,
                                  .pack_count = patch->pack_count,
                                  .x = local.x,
@@ -135,8 +127,8 @@ static vsc_patch_work prepare_surface(const evaluation *e, const vsc_patch *patc
   const vsc_model *model = e->model;
   *choice = (vsc_kernel_choice){.family = patch->family,
                                 .damping = e->w != NULL && model->membranes[patch->material].lag > 0};
-  gather(model, patch, e->x, local->x);
-  if (choice->damping) gather(model, patch, e->w, local->w);
+  vsc_gather_nodes(model, patch, e->x, local->x);
+  if (choice->damping) vsc_gather_nodes(model, patch, e->w, local->w);
   return (vsc_patch_work){.packs = model->store + patch->packs,
                           .pack_count = patch->pack_count,
                           .membrane = &model->membranes[patch->material],
@@ -159,10 +151,11 @@ static vsc_patch_work prepare(const evaluation *e, const vsc_patch *patch, const
       .damping = e->w != NULL && (patch->mixed ? model->terms.damping : material->damped),
       .active = passive ? VSC_ACTIVE_NONE : material->active,
       .nodal_volume = vsc_patch_shares_volume(model, patch),
+      .smoothed = patch->smoothed != 0,
       .composed = patch->mixed || material->axis_count + material->pair_count > 0,
       .general = material->general || (patch->mixed && model->terms.general)};
-  gather(model, patch, e->x, local->x);
-  if (choice->damping) gather(model, patch, e->w, local->w);
+  vsc_gather_nodes(model, patch, e->x, local->x);
+  if (choice->damping) vsc_gather_nodes(model, patch, e->w, local->w);
   if (choice->nodal_volume) gather_pressures(e, patch, local->pressure);
   return (vsc_patch_work){
       .packs = model->store + patch->packs,
@@ -173,6 +166,8 @@ static vsc_patch_work prepare(const evaluation *e, const vsc_patch *patch, const
       .pairs = model->pairs + material->first_pair,
       .mixtures = patch->mixed ? vsc_pack_mixture(model, patch, patch->first_pack) : NULL,
       .law_data = patch->law_data ? model->store + patch->law_data : NULL,
+      .smoothed = patch->smoothed ? vsc_pack_smoothed(model, patch, patch->first_pack) : NULL,
+      .edge_stress = e->scratch->edge_stress,
       .x = local->x,
       .w = local->w,
       .f = local->f,
@@ -195,28 +190,40 @@ static void patch_force(void *context, size_t p, int thread)
                                   : prepare(e, patch, &local, &choice);
   vsc_patch_kernel *kernel = vsc_force_kernel(&choice);
   if (kernel != NULL) kernel(&work);
-  memcpy(e->force + 4 * (size_t)patch->first_node, local.f, 4 * patch->own_count * sizeof *local.f);
-  memcpy(e->scratch->partial + 4 * (size_t)patch->first_shared,
-         local.f + 4 * (size_t)patch->own_count, 4 * patch->shared_count * sizeof *local.f);
+  vsc_put_forces(patch, local.f, e->force, e->scratch->partial);
 }
+
+// What the pieces of a sum over shared nodes share.
+typedef struct shared_sum {
+  const vsc_model *model;
+  const double *partial;
+  double *force;
+} shared_sum;
 
 // Adds the parts of the forces on shared nodes in the order of the patches.
 static void sum_shared(void *context, size_t piece, int thread)
 {
   (void)thread;
-  const evaluation *e = context;
-  const vsc_model *model = e->model;
+  const shared_sum *s = context;
+  const vsc_model *model = s->model;
   const size_t shared_nodes = model->node_count - model->own_node_count;
   size_t end = (piece + 1) * NODES_PER_PIECE;
   if (end > shared_nodes) end = shared_nodes;
-  const vsc_wide *partial = (const vsc_wide *)e->scratch->partial;
-  vsc_wide *force = (vsc_wide *)e->force + model->own_node_count;
-  for (size_t s = piece * NODES_PER_PIECE; s < end; s++) {
+  const vsc_wide *partial = (const vsc_wide *)s->partial;
+  vsc_wide *force = (vsc_wide *)s->force + model->own_node_count;
+  for (size_t n = piece * NODES_PER_PIECE; n < end; n++) {
     vsc_wide sum = vsc_splat(0);
-    for (uint32_t k = model->sum_start[s]; k < model->sum_start[s + 1]; k++)
+    for (uint32_t k = model->sum_start[n]; k < model->sum_start[n + 1]; k++)
       sum += partial[model->sum_place[k]];
-    force[s] = sum;
+    force[n] = sum;
   }
+}
+
+void vsc_sum_shared(const vsc_model *model, const double *partial, double *force)
+{
+  shared_sum sum = {model, partial, force};
+  const size_t shared_nodes = model->node_count - model->own_node_count;
+  vsc_parallel_for((shared_nodes + NODES_PER_PIECE - 1) / NODES_PER_PIECE, sum_shared, &sum);
 }
 
 void vsc_force(const vsc_model *model, const double *x, const double *w, double time,
@@ -225,9 +232,9 @@ void vsc_force(const vsc_model *model, const double *x, const double *w, double 
   const vsc_terms *terms = &model->terms;
   evaluation e = {model, x, w, time, scratch, force};
   if (terms->nodal_volume) vsc_parallel_for(model->patch_count, patch_volume, &e);
+  if (terms->smoothed) vsc_smoothed_stress(model, x, w, time, scratch);
   vsc_parallel_for(model->patch_count, patch_force, &e);
-  const size_t shared_nodes = model->node_count - model->own_node_count;
-  vsc_parallel_for((shared_nodes + NODES_PER_PIECE - 1) / NODES_PER_PIECE, sum_shared, &e);
+  vsc_sum_shared(model, scratch->partial, force);
   vsc_loads_force(model, x, w, time, scratch->load, force);
 }
 
@@ -240,7 +247,7 @@ vsc_patch_work vsc_patch_prepare(const vsc_model *model, const vsc_patch *patch,
   vsc_kernel_choice choice;
   vsc_patch_work work = prepare(&e, patch, &local, &choice);
   if (!choice.damping) work.w = NULL;
-  if (before != NULL) gather(model, patch, before, local.f);
+  if (before != NULL) vsc_gather_nodes(model, patch, before, local.f);
   work.before = before != NULL ? local.f : NULL;
   return work;
 }

@@ -13,6 +13,10 @@
 void vsc_force(const vsc_model *model, const double *x, const double *w, double time,
                vsc_scratch *scratch, double *force);
 
+// Adds up the patches' parts (partial_count x 4) of the forces on shared nodes, in the order of the
+// patches, into `force`.
+void vsc_sum_shared(const vsc_model *model, const double *partial, double *force);
+
 // J of each node's volume group at `x`, into `ratio` (node_count). With node-averaged volume only.
 void vsc_group_ratios(const vsc_model *model, const double *x, vsc_scratch *scratch, double *ratio);
 

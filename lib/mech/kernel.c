@@ -16,6 +16,7 @@ static vsc_patch_kernel *cell_kernel(const vsc_kernels *set, const vsc_kernel_ch
   if (c->law == VSC_LAW_CLASSICAL) return NULL;
   if (c->law == VSC_LAW_PAPER)
     return c->family == VSC_TETS ? set->paper_tets[c->damping] : set->paper_hexes[c->damping];
+  if (c->smoothed) return set->smoothed[c->nodal_volume];
   if (c->general) return set->laws[c->damping][c->family];
   if (c->family == VSC_TETS) return set->tets[c->composed][c->damping][c->active][c->nodal_volume];
   return set->solids[c->damping][c->family - VSC_HEXES];
@@ -39,6 +40,31 @@ vsc_patch_kernel *vsc_force_kernel(const vsc_kernel_choice *choice)
 vsc_patch_kernel *vsc_volume_kernel(void)
 {
   return kernels()->volume;
+}
+
+vsc_patch_kernel *vsc_gradient_kernel(void)
+{
+  return kernels()->gradient;
+}
+
+vsc_patch_kernel *vsc_edge_force_kernel(void)
+{
+  return kernels()->edge_force;
+}
+
+vsc_edge_kernel *vsc_edge_stress_kernel(void)
+{
+  return kernels()->edge_stress;
+}
+
+vsc_edge_kernel *vsc_edge_tangent_kernel(void)
+{
+  return kernels()->edge_tangent;
+}
+
+vsc_edge_kernel *vsc_edge_product_kernel(void)
+{
+  return kernels()->edge_product;
 }
 
 vsc_tangent_kernel *vsc_cell_tangent(uint32_t family)

@@ -18,6 +18,8 @@ typedef struct vsc_patch_work {
   const vsc_pair *pairs;
   const vsc_mixture *mixtures;  // of each pack; NULL: the material's own moduli
   const void *law_data;         // law PAPER: vsc_chords or vsc_hex_axes of each pack
+  const vsc_smoothed_pack *smoothed;  // smoothed tets: of each pack; else NULL
+  const double *edge_stress;    // likewise: P_e of all edges, [edge][column][4], kPa
   const double *x;              // positions, mm
   const double *w;              // velocities, mm/ms; used with damping
   const double *pressure;  // U'(J) of the nodes' volume groups, kPa; used with node-averaged volume
@@ -29,9 +31,34 @@ typedef struct vsc_patch_work {
   const double *before;  // positions of the iterate before, which foretells stresses; or NULL
   double *f;       // forces, mN: added to
   double *volume;  // quarter volumes, mm^3: added to, by the volume pass
+  double *gradient;  // F of each tet, [tet][column][4]: written by the gradient pass
 } vsc_patch_work;
 
 typedef void vsc_patch_kernel(const vsc_patch_work *work);
+
+// A block of edge frames (model/smoothing.h).
+typedef struct vsc_edge_work {
+  const vsc_edge_frame *frames;  // of its packs
+  size_t pack_count;
+  const uint32_t *start;         // of its first edge on: where each one's tets begin in
+  const uint32_t *slot;          // the lists of all edges
+  const double *weight;
+  const double *gradient;        // F of all slots, [slot][column][4]
+  const double *rate;            // dF/dt likewise, 1/ms; NULL: nothing is damped
+  const vsc_material *material;
+  const vsc_axis *axes;          // the material's further axes and pairs
+  const vsc_pair *pairs;
+  const vsc_wide *activation;    // of each pack, or of all when activation_stride is 0
+  size_t activation_stride;
+  double stiffness_factor, damping_factor;  // tangents only, as for patches
+  vsc_wide *tangent;             // of its packs, VSC_EDGE_TANGENT each: blocks (i, j), i >= j, of dP's
+                                 // columns i by F's columns j, row by row, at 9 (i (i + 1)/2 + j); kPa
+  double *stress;                // P_e (or its change) of its edges, [edge][column][4], kPa: written
+} vsc_edge_work;
+
+enum { VSC_EDGE_TANGENT = 54 };
+
+typedef void vsc_edge_kernel(const vsc_edge_work *work);
 
 // The matrices of the four elements of pack k: block (i, j) of corners i >= j, row by row, at
 // K + 9 (i (i + 1)/2 + j); mN/mm. `work->w` is NULL where nothing is damped.
@@ -44,6 +71,7 @@ typedef struct vsc_kernel_choice {
   bool damping;
   vsc_active_kind active;
   bool nodal_volume;
+  bool smoothed;  // tets whose law is evaluated on edges
   bool composed;  // further axes or pairs, or inclusions
   bool general;   // the kernel of any law of strain
 } vsc_kernel_choice;
@@ -54,6 +82,16 @@ vsc_patch_kernel *vsc_force_kernel(const vsc_kernel_choice *choice);
 
 // The kernel that adds a quarter of each tet's deformed volume to its nodes' `volume`.
 vsc_patch_kernel *vsc_volume_kernel(void);
+
+// F of each of a patch's smoothed tets, and the forces of their edges' stresses alone (the force kernels of
+// smoothed tets add the volume's).
+vsc_patch_kernel *vsc_gradient_kernel(void);
+vsc_patch_kernel *vsc_edge_force_kernel(void);
+
+// The stress of edges; their tangent; and the tangent times the gradients, into their stress.
+vsc_edge_kernel *vsc_edge_stress_kernel(void);
+vsc_edge_kernel *vsc_edge_tangent_kernel(void);
+vsc_edge_kernel *vsc_edge_product_kernel(void);
 
 // The tangent of a family of cells under laws that are functions of strain (model/law.h).
 vsc_tangent_kernel *vsc_cell_tangent(uint32_t family);

@@ -14,6 +14,7 @@
 #include "mech/kernel_solid.h"
 #include "mech/kernel_surface.h"
 #include "mech/kernel_tangent.h"
+#include "mech/kernel_smoothed.h"
 
 #define FORCE_KERNEL(composed, damping, active, nodal)                             \
   static void force_##composed##damping##active##nodal(const vsc_patch_work *work) \
@@ -59,4 +60,10 @@ const vsc_kernels KERNEL_SET = {
     .volume = volume_kernel,
     .tangents = {tangent_tets, tangent_hexes, tangent_wedges, tangent_pyramids,
                  tangent_tets10},
+    .smoothed = {force_smoothed_0, force_smoothed_1},
+    .gradient = gradient_kernel,
+    .edge_force = edge_force_kernel,
+    .edge_stress = edge_stress_kernel,
+    .edge_tangent = edge_tangent_kernel,
+    .edge_product = edge_product_kernel,
 };

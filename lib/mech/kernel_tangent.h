@@ -72,8 +72,9 @@ VSC_INLINE vsc_wide foretell_ratio(const vsc_wide3 former[3], const vsc_wide3 g[
 
 // S and D of the frame, both as the system weighs them: stiffness_factor for positions,
 // damping_factor for velocities. With `former` S is what that iterate foretold.
-VSC_INLINE void weigh_answer(const vsc_patch_work *work, const vsc_law_input *in, const vsc_wide3 g[3],
-                             const vsc_wide3 *former, const vsc_wide3 *rate, vsc_law_answer *answer)
+VSC_INLINE void weigh_answer(double stiffness_factor, double damping_factor, const vsc_law_input *in,
+                             const vsc_wide3 g[3], const vsc_wide3 *former, const vsc_wide3 *rate,
+                             vsc_law_answer *answer)
 {
   vsc_wide e[6];
   vsc_strain_of(g, e);
@@ -86,10 +87,10 @@ VSC_INLINE void weigh_answer(const vsc_patch_work *work, const vsc_law_input *in
   }
   for (int k = 0; k < 6; k++) {
     for (int l = 0; rate != NULL && l < 6; l++) answer->S[k] += viscous[k][l] * speed[l];
-    answer->S[k] *= work->stiffness_factor;
+    answer->S[k] *= stiffness_factor;
     for (int l = 0; l < 6; l++) {
-      answer->D[k][l] *= work->stiffness_factor;
-      if (rate != NULL) answer->D[k][l] += work->damping_factor * viscous[k][l];
+      answer->D[k][l] *= stiffness_factor;
+      if (rate != NULL) answer->D[k][l] += damping_factor * viscous[k][l];
     }
   }
 }
@@ -252,8 +253,13 @@ VSC_INLINE void tangent_kernel(const vsc_patch_work *work, size_t k, int corners
     if (work->w != NULL) solid_axes(&frames[q], speed[q], rate);
     open_frame(&frames[q], work->rule->D[q], corners, g[q], &frame);
     const vsc_wide3 *before = work->before != NULL ? former[q] : NULL;
-    weigh_answer(work, &in, g[q], before, work->w != NULL ? rate : NULL, &answer);
-    const vsc_wide rest = vsc_splat(work->material->rest_shear);
+    // smoothed tets leave their law to the edges
+    if (work->smoothed != NULL)
+      answer = (vsc_law_answer){0};
+    else
+      weigh_answer(work->stiffness_factor, work->damping_factor, &in, g[q], before,
+                   work->w != NULL ? rate : NULL, &answer);
+    const vsc_wide rest = vsc_splat(work->smoothed != NULL ? 0 : work->material->rest_shear);
     const vsc_wide p = shared.pressure + own_pressure(own, rest, frame.J, before, g[q]);
     const vsc_wide curvature =
         vsc_volume_curvature(own, frame.J) + vsc_rest_curvature(rest, frame.J);

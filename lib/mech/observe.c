@@ -16,11 +16,13 @@
 
 vsc_status vsc_ledger_create(const vsc_model *model, vsc_ledger **ledger, vsc_error *error)
 {
-  const size_t slots = model->terms.active != VSC_ACTIVE_NONE ? VSC_WIDTH * model->frame_count : 0;
+  const size_t frames = model->frame_count + model->smoothing.pack_count;
+  const size_t slots = model->terms.active != VSC_ACTIVE_NONE ? VSC_WIDTH * frames : 0;
   vsc_ledger *made;
   *ledger = NULL;
   if (!VSC_NEW(made, 1) || !VSC_NEW(made->way, slots) || !VSC_NEW(made->tension, slots) ||
-      !VSC_NEW(made->push, vsc_loads_push_count(model)) || !VSC_NEW(made->parts, model->patch_count)) {
+      !VSC_NEW(made->push, vsc_loads_push_count(model)) ||
+      !VSC_NEW(made->parts, model->patch_count + model->smoothing.block_count)) {
     vsc_ledger_free(made);
     return vsc_fail_memory(error, "the energy ledger");
   }
@@ -40,7 +42,7 @@ void vsc_ledger_free(vsc_ledger *ledger)
 
 typedef struct observation {
   const vsc_model *model;
-  const vsc_state *state;
+  vsc_state *state;
   vsc_ledger *ledger;
 } observation;
 
@@ -67,7 +69,7 @@ static void observe_frames(const observation *o, const vsc_patch *patch, size_t 
 {
   const vsc_model *model = o->model;
   const vsc_material *material = &model->materials[patch->material];
-  const bool active = material->active != VSC_ACTIVE_NONE;
+  const bool active = material->active != VSC_ACTIVE_NONE && !patch->smoothed;
   const int points = vsc_family_frames(model, patch->family);
   vsc_pack_law law;
   if (active) law = vsc_pack_law_of(model, patch, k);
@@ -100,19 +102,24 @@ static void observe_frames(const observation *o, const vsc_patch *patch, size_t 
   for (int l = 0; l < VSC_WIDTH; l++) part->inverted += inverted[l];
 }
 
+static void add_energies(const vsc_pack_energies *energies, vsc_totals *part)
+{
+  for (int l = 0; l < VSC_WIDTH; l++) {
+    part->axial += energies->axial[l];
+    part->angular += energies->angular[l];
+    part->volume_energy += energies->volume[l];
+    part->membrane += energies->membrane[l];
+    part->bending += energies->bending[l];
+    part->dissipation += energies->dissipation[l];
+    part->continued += energies->continued[l];
+  }
+}
+
 static void observe_pack(const observation *o, const vsc_patch *patch, size_t k, vsc_totals *part)
 {
   const vsc_pack_energies energies =
       vsc_pack_energies_of(o->model, patch, k, o->state->x, o->state->v);
-  for (int l = 0; l < VSC_WIDTH; l++) {
-    part->axial += energies.axial[l];
-    part->angular += energies.angular[l];
-    part->volume_energy += energies.volume[l];
-    part->membrane += energies.membrane[l];
-    part->bending += energies.bending[l];
-    part->dissipation += energies.dissipation[l];
-    part->continued += energies.continued[l];
-  }
+  add_energies(&energies, part);
   if (vsc_patch_is_solid(patch)) observe_frames(o, patch, k, part);
 }
 
@@ -135,6 +142,34 @@ static void observe_patch(void *context, size_t p, int thread)
   *part = empty_totals();
   for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++)
     observe_pack(o, patch, k, part);
+}
+
+// The laws of smoothed tets, and their active tension, on a block of edges.
+static void observe_edges(void *context, size_t b, int thread)
+{
+  (void)thread;
+  const observation *o = context;
+  const vsc_model *model = o->model;
+  const vsc_edge_block *block = &model->smoothing.blocks[b];
+  vsc_edge_work work = vsc_edge_work_of(model, b, &o->state->scratch);
+  if (work.material->damped) work.rate = o->state->scratch.rate;
+  const bool active = work.material->active != VSC_ACTIVE_NONE;
+  const vsc_pack_law law = vsc_material_law(work.material);
+  vsc_totals *part = &o->ledger->parts[model->patch_count + b];
+  *part = empty_totals();
+  for (size_t k = 0; k < work.pack_count; k++) {
+    const vsc_pack_energies energies = vsc_edge_energies_of(model, &work, k);
+    add_energies(&energies, part);
+    vsc_wide3 g[3];
+    if (active) vsc_edge_axes(&work, k, work.gradient, g);
+    for (int l = 0; active && l < VSC_WIDTH; l++) {
+      const size_t edge = VSC_WIDTH * (block->first_pack + k) + (size_t)l;
+      const double V = work.frames[k].V[l];
+      if (V == 0) continue;
+      const double a = vsc_model_edge_activation(model, work.material, edge, o->state->time);
+      add_active(o, work.material, &law, l, a, VSC_WIDTH * model->frame_count + edge, V, g, part);
+    }
+  }
 }
 
 static void add_part(const vsc_totals *part, vsc_totals *totals)
@@ -202,7 +237,12 @@ void vsc_observe(const vsc_model *model, vsc_state *state, vsc_ledger *ledger, b
   *totals = empty_totals();
   vsc_parallel_for(model->patch_count, observe_patch, &o);
   double known_volume = 0, active_volume = 0;
-  for (size_t p = 0; p < model->patch_count; p++) add_part(&ledger->parts[p], totals);
+  if (model->terms.smoothed) {
+    vsc_smoothed_gradients(model, state->x, model->terms.damping ? state->v : NULL, &state->scratch);
+    vsc_parallel_for(model->smoothing.block_count, observe_edges, &o);
+  }
+  const size_t parts = model->patch_count + model->smoothing.block_count;
+  for (size_t p = 0; p < parts; p++) add_part(&ledger->parts[p], totals);
   for (size_t p = 0; p < model->patch_count; p++) known_volume += ledger->parts[p].known_volume;
   for (size_t m = 0; m < model->material_count; m++)
     if (model->materials[m].active != VSC_ACTIVE_NONE) active_volume += model->materials[m].volume;

@@ -46,11 +46,11 @@ typedef struct vsc_ledger {
   double time;         // of the last call, ms
   double dissipation;  // power at the last call, uJ/ms
   double calls;
-  double *way;      // frames x 4: along which tension worked, at the last call (mech/element.h);
-                    // NULL when nothing is active. Owned
-  double *tension;  // frames x 4: active tension at the last call, kPa. Owned
+  double *way;      // (frames + packs of edges) x 4: along which tension worked, at the last call
+                    // (mech/element.h); NULL when nothing is active. Owned
+  double *tension;  // likewise: active tension at the last call, kPa. Owned
   double *push;     // forces and places of the nodes under pressure (mech/loads.h). Owned
-  vsc_totals *parts;  // patch_count. Owned
+  vsc_totals *parts;  // of each patch and of each block of edges. Owned
 } vsc_ledger;
 
 vsc_status vsc_ledger_create(const vsc_model *model, vsc_ledger **ledger, vsc_error *error);
@@ -108,7 +108,7 @@ int vsc_field_components(vsc_field field);
 vsc_status vsc_field_check(const vsc_model *model, vsc_field field, vsc_error *error);
 
 // Writes a field in the mesh's own order; `values` has room for all tuples. Elements without the field
-// (vsc_field_check) get 0.
+// (vsc_field_check) get 0; smoothed tets show their own deformation, not their edges'.
 void vsc_read_field(const vsc_model *model, vsc_state *state, vsc_field field, double *values);
 
 // The angle of each element's deformed fibre above the circumference, in degrees, -90 to 90, into

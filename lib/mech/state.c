@@ -7,6 +7,7 @@
 #include "base/hash.h"
 #include "base/mem.h"
 #include "base/parallel.h"
+#include "mech/smoothed.h"
 
 static bool allocate(const vsc_model *model, vsc_state *state)
 {
@@ -19,6 +20,8 @@ static bool allocate(const vsc_model *model, vsc_state *state)
   scratch->local_size = (4 * 3 + 1) * model->most_nodes + VSC_WIDTH * (model->most_packs + 2);
   scratch->local_size = (scratch->local_size + 7) / 8 * 8;
   const bool nodal = model->terms.nodal_volume;
+  const size_t tets =
+      model->terms.smoothed ? VSC_MATRIX * VSC_WIDTH * model->pack_count : 0;
   const bool remembers =
       model->solve.kind == VSC_SOLVE_IMPLICIT && model->solve.scheme == VSC_SCHEME_BDF2;
   return VSC_NEW(state->x, 4 * n) && VSC_NEW(state->v, 4 * n) && VSC_NEW(state->a, 4 * n) &&
@@ -27,6 +30,8 @@ static bool allocate(const vsc_model *model, vsc_state *state)
          VSC_NEW(scratch->partial, 4 * model->partial_count) &&
          VSC_NEW(scratch->volume, nodal ? n : 0) &&
          VSC_NEW(scratch->partial_volume, nodal ? model->partial_count : 0) &&
+         VSC_NEW(scratch->gradient, tets) && VSC_NEW(scratch->rate, model->terms.damping ? tets : 0) &&
+         VSC_NEW(scratch->edge_stress, VSC_MATRIX * VSC_WIDTH * model->smoothing.pack_count) &&
          VSC_NEW(scratch->predicted, model->terms.damping ? 4 * n : 0) &&
          VSC_NEW(scratch->trial, 3 * 4 * n) && VSC_NEW(state->contact, model->obstacle_count) &&
          VSC_NEW(state->contact_count, model->obstacle_count > 0 ? n : 0) &&
@@ -75,6 +80,9 @@ void vsc_state_free(vsc_state *state)
   vsc_free(state->scratch.partial);
   vsc_free(state->scratch.volume);
   vsc_free(state->scratch.partial_volume);
+  vsc_free(state->scratch.gradient);
+  vsc_free(state->scratch.rate);
+  vsc_free(state->scratch.edge_stress);
   vsc_free(state->scratch.predicted);
   vsc_free(state->scratch.trial);
   vsc_free(state);

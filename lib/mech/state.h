@@ -30,6 +30,8 @@ typedef struct vsc_scratch {
   double *partial;         // partial_count x 4: parts of the forces on shared nodes, mN
   double *volume;          // node_count: deformed volume of the nodes' groups (own nodes), mm^3
   double *partial_volume;  // partial_count: parts of the same for shared nodes
+  // smoothed tets: F of each slot, [slot][column][4], dF/dt (with damping), and P_e of each edge likewise, kPa
+  double *gradient, *rate, *edge_stress;
   double *predicted;       // node_count x 4: velocity at the end of the step, when there is damping
   double *trial;  // node_count x 4 x 3: positions, velocities and forces of the step estimate
 } vsc_scratch;

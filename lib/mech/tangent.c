@@ -9,6 +9,7 @@
 #include "mech/kernel.h"
 #include "mech/loads.h"
 #include "mech/mass_matrix.h"
+#include "mech/smoothed.h"
 #include "model/law_volume.h"
 
 enum { MOST_PAIRS = VSC_MOST_CORNERS * (VSC_MOST_CORNERS + 1) / 2 };
@@ -153,9 +154,7 @@ static bool list_groups(const vsc_model *model, vsc_tangent *tangent)
     at[n] = tangent->group_start[n];
   }
   const size_t count = tangent->group_start[nodes];
-  tangent->preconditioner.values = NULL;
-  const bool made = VSC_NEW(tangent->preconditioner.values, 9 * matrix->start[nodes]) &&
-                    VSC_NEW(tangent->group_node, count) &&
+  const bool made = VSC_NEW(tangent->group_node, count) &&
                     VSC_NEW(tangent->group_gradient, 3 * count) &&
                     VSC_NEW(tangent->group_weight, nodes) && VSC_NEW(tangent->group_change, nodes);
   for (uint32_t j = 0; made && j < nodes; j++)
@@ -180,10 +179,16 @@ vsc_status vsc_tangent_create(const vsc_model *model, vsc_tangent **tangent, vsc
   bool good = list_elements(model, &group, &nodes, &count) &&
               vsc_block_matrix_create(model->node_count, count, group, nodes, &made->matrix) &&
               find_places(model, made) && color_patches(model, made);
+  made->model = model;
   made->preconditioner = made->matrix;
+  if (good && (model->terms.nodal_volume || model->terms.smoothed))
+    good = VSC_NEW(made->preconditioner.values, 9 * made->matrix.start[model->node_count]);
   if (good && model->terms.nodal_volume) good = list_groups(model, made);
   if (good && model->masses == VSC_MASS_CONSISTENT)
     good = vsc_mass_matrix(model, &made->matrix, &made->masses);
+  if (good && model->terms.smoothed)
+    good = VSC_NEW(made->edges, VSC_EDGE_TANGENT * model->smoothing.pack_count) &&
+           (made->space = vsc_smoothed_create(model)) != NULL;
   vsc_free(group);
   vsc_free(nodes);
   if (!good) {
@@ -197,18 +202,21 @@ vsc_status vsc_tangent_create(const vsc_model *model, vsc_tangent **tangent, vsc
 void vsc_tangent_free(vsc_tangent *tangent)
 {
   if (tangent == NULL) return;
+  if (tangent->preconditioner.values != tangent->matrix.values)
+    vsc_free(tangent->preconditioner.values);
   vsc_block_matrix_free(&tangent->matrix);
   vsc_free(tangent->places);
   vsc_free(tangent->first_place);
   vsc_free(tangent->color_start);
   vsc_free(tangent->colored);
-  if (tangent->group_start != NULL) vsc_free(tangent->preconditioner.values);
   vsc_free(tangent->masses);
   vsc_free(tangent->group_start);
   vsc_free(tangent->group_node);
   vsc_free(tangent->group_gradient);
   vsc_free(tangent->group_weight);
   vsc_free(tangent->group_change);
+  vsc_free(tangent->edges);
+  vsc_smoothed_free(tangent->space);
   vsc_free(tangent);
 }
 
@@ -368,6 +376,8 @@ void vsc_tangent_assemble(const vsc_model *model, vsc_tangent *tangent, const do
   vsc_loads_tangent(model, x, time, scratch->load, stiffness_factor, damping_factor, add_load,
                     &tangent->matrix);
   if (model->terms.nodal_volume) assemble_groups(&a);
+  if (model->terms.smoothed)
+    vsc_smoothed_tangent(model, x, w, time, stiffness_factor, damping_factor, scratch, tangent->edges);
 }
 
 // A part of the groups' stiffness put on the tet itself: 0.3 mean_n (U''_n) / V_e grad v_e grad v_e^T.
@@ -393,10 +403,11 @@ static void add_tet_to_preconditioner(const vsc_model *model, vsc_tangent *tange
 
 void vsc_tangent_precondition(const vsc_model *model, vsc_tangent *tangent, const double *x)
 {
-  if (tangent->group_start == NULL) return;
+  if (tangent->preconditioner.values == tangent->matrix.values) return;
   memcpy(tangent->preconditioner.values, tangent->matrix.values,
          9 * tangent->matrix.start[model->node_count] * sizeof(double));
-  for_sharing_tets(model, tangent, x, add_tet_to_preconditioner);
+  if (model->terms.nodal_volume) for_sharing_tets(model, tangent, x, add_tet_to_preconditioner);
+  if (model->terms.smoothed) vsc_smoothed_precondition(model, tangent->edges, &tangent->preconditioner);
 }
 
 // ---- products
@@ -421,6 +432,8 @@ void vsc_tangent_times(const vsc_tangent *tangent, const double *free, const dou
 {
   vsc_block_matrix_times(&tangent->matrix, x, y);
   if (tangent->group_start != NULL) add_groups(tangent, x, y);
+  if (tangent->edges != NULL)
+    vsc_smoothed_times(tangent->model, tangent->edges, tangent->space, x, y);
   for (size_t i = 0; i < 4 * tangent->matrix.node_count; i++)
     if (free[i] == 0) y[i] = 0;
 }

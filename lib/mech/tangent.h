@@ -6,7 +6,8 @@
 // assembled from the elements, with a pattern that is computed once. Volumes shared by the tets round
 // a node join nodes that no element joins: their part G^T W G, with the gradients G of the groups' volumes,
 // is kept apart and applied as it stands (vsc_tangent_times); the preconditioner has a part of each
-// group's stiffness on the group's own elements.
+// group's stiffness on the group's own elements. So it is with the laws of smoothed tets, of which the
+// preconditioner has for each tet the mean of its edges.
 #ifndef VSC_MECH_TANGENT_H
 #define VSC_MECH_TANGENT_H
 
@@ -15,8 +16,8 @@
 
 typedef struct vsc_tangent {
   vsc_block_matrix matrix;   // of what elements join
-  vsc_block_matrix preconditioner;  // the same matrix; with node-averaged volume one with the same
-                                    // pattern and numbers of its own
+  vsc_block_matrix preconditioner;  // the same matrix; with node-averaged volume or smoothed tets one
+                                    // with the same pattern and numbers of its own
   uint32_t *places;          // where each pack's blocks go in the matrix, [pair][lane]; owned
   size_t *first_place;       // patch_count: of each patch's first pack; owned
   size_t color_count;
@@ -29,6 +30,10 @@ typedef struct vsc_tangent {
   double *group_gradient;    // x 3, mm^2; owned
   double *group_weight;      // node_count: a U''(J_n)/V_n, kPa/mm^3; owned
   double *group_change;      // node_count: memory of vsc_tangent_times; owned
+  // smoothed tets: dP_e/dF_e of all edges (mech/smoothed.h)
+  const vsc_model *model;    // which must outlive the tangent
+  vsc_wide *edges;           // NULL without; owned
+  vsc_scratch *space;        // memory of vsc_tangent_times; owned
 } vsc_tangent;
 
 // Memory and pattern for `model`. VSC_INPUT, naming what and the remedy, for what has no tangent:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/axes.h"
 
+#include <gsl/gsl_eigen.h>
 #include <math.h>
 #include <string.h>
 
@@ -135,5 +136,38 @@ int vsc_axes_valid(const vsc_axes *axes)
     vsc_cross(f, f + 3, across);
     if (!(vsc_dot(across, f + 6) > 0)) return 0;
   }
+  return 1;
+}
+
+void vsc_add_square(const double v[3], double factor, double sum[6])
+{
+  for (int i = 0, k = 0; i < 3; i++)
+    for (int j = i; j < 3; j++) sum[k++] += factor * v[i] * v[j];
+}
+
+// The sizes fit, so GSL has nothing to call its error handler for; its workspace lies on the stack.
+int vsc_top_axis(const double matrix[6], double axis[3], double values[3])
+{
+  double a[9] = {matrix[0], matrix[1], matrix[2], matrix[1], matrix[3],
+                 matrix[4], matrix[2], matrix[4], matrix[5]};
+  double largest = 0;
+  for (int i = 0; i < 6; i++) {
+    if (!isfinite(matrix[i])) return 0;
+    largest = fmax(largest, fabs(matrix[i]));
+  }
+  if (largest == 0) return 0;
+  for (int i = 0; i < 9; i++) a[i] /= largest;
+  double value[3], vector[9], work[4][3];
+  gsl_matrix_view a_view = gsl_matrix_view_array(a, 3, 3);
+  gsl_matrix_view vector_view = gsl_matrix_view_array(vector, 3, 3);
+  gsl_vector_view value_view = gsl_vector_view_array(value, 3);
+  gsl_eigen_symmv_workspace space = {
+      .size = 3, .d = work[0], .sd = work[1], .gc = work[2], .gs = work[3]};
+  if (gsl_eigen_symmv(&a_view.matrix, &value_view.vector, &vector_view.matrix, &space) != 0)
+    return 0;
+  gsl_eigen_symmv_sort(&value_view.vector, &vector_view.matrix, GSL_EIGEN_SORT_VAL_DESC);
+  for (int i = 0; i < 3; i++) axis[i] = vector[3 * i];
+  vsc_normalize(axis);
+  for (int i = 0; values != NULL && i < 3; i++) values[i] = value[i] * largest;
   return 1;
 }

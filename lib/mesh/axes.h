@@ -56,4 +56,12 @@ int vsc_axes_complete(const double fiber[3], const double *sheet, double frame[9
 // True when each frame is orthonormal and right-handed to 1e-9.
 int vsc_axes_valid(const vsc_axes *axes);
 
+// sum += factor v v^T, as xx, xy, xz, yy, yz, zz.
+void vsc_add_square(const double v[3], double factor, double sum[6]);
+
+// The unit eigenvector `axis` of the largest eigenvalue of a symmetric matrix (xx, xy, xz, yy, yz,
+// zz) by GSL; `values` (may be NULL) takes the eigenvalues, largest first. Returns 0 when the
+// matrix is not finite or zero; else 1.
+int vsc_top_axis(const double matrix[6], double axis[3], double values[3]);
+
 #endif

@@ -216,6 +216,7 @@ static vsc_status build_materials(const vsc_definition *definition, vsc_model *m
     model->terms.active = material->active;
   }
   model->terms.nodal_volume = definition->volume == VSC_VOLUME_NODAL;
+  model->terms.smoothed = definition->tets == VSC_TETS_SMOOTHED;
   return VSC_OK;
 }
 
@@ -416,6 +417,7 @@ static vsc_status build(const vsc_mesh *mesh, const vsc_axes *axes,
   count_materials(model);
   status = check_fibres(model, error);
   if (status == VSC_OK) status = vsc_terms_activation(mesh, definition, model, error);
+  if (status == VSC_OK) status = vsc_terms_smoothing(model, error);
   if (status == VSC_OK) status = vsc_terms_masses(mesh, definition, material_of, model, error);
   if (status == VSC_OK) status = vsc_terms_volume_groups(model, error);
   if (status == VSC_OK) status = vsc_terms_supports(definition, model, error);

@@ -259,6 +259,12 @@ typedef enum vsc_volume_kind {
   VSC_VOLUME_ELEMENT,  // each tet alone; locks when K is far above the shear modulus
 } vsc_volume_kind;
 
+// What linear tets' laws are evaluated on.
+typedef enum vsc_tets_kind {
+  VSC_TETS_PLAIN,     // each tet's own deformation (default)
+  VSC_TETS_SMOOTHED,  // its average over the tets round each edge (model/smoothing.h)
+} vsc_tets_kind;
+
 typedef struct vsc_support_def {
   char set[VSC_NAME];  // node set
   int held[3];         // 1: in x, y, z the node moves by the support's motion only
@@ -329,6 +335,7 @@ typedef struct vsc_definition {
   size_t vessel_count;
   vsc_vessel_def *vessels;  // owned
   vsc_volume_kind volume;
+  vsc_tets_kind tets;
   size_t surface_count;
   vsc_selector *surfaces;  // owned
   size_t set_count;

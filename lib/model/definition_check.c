@@ -443,6 +443,21 @@ static void check_vessel(checker *c, const vsc_definition *d, size_t item)
        "give a volume fraction from 0 to 1");
 }
 
+// Smoothed tets need one law of strain in each of them.
+static void check_smoothing(checker *c, const vsc_definition *d)
+{
+  for (size_t m = 0; d->tets == VSC_TETS_SMOOTHED && m < d->material_count; m++) {
+    const vsc_material_def *material = &d->materials[m];
+    enter(c, "materials", m, "");
+    if (c->status == VSC_OK && !vsc_law_is_of_strain(material->law))
+      c->status = vsc_fail(c->error, VSC_INPUT,
+                           "%s.law: %s cannot be smoothed: take another law, or tets: plain", c->where,
+                           material->law == VSC_LAW_PAPER ? "paper" : "classical");
+    need(c, material->inclusion_count == 0, "inclusions", (double)material->inclusion_count, "of them",
+         "tets: smoothed takes no inclusions or vessels; leave them out, or take tets: plain");
+  }
+}
+
 vsc_status vsc_definition_check(const vsc_definition *d, vsc_error *error)
 {
   checker c = {.error = error, .status = VSC_OK};
@@ -450,6 +465,7 @@ vsc_status vsc_definition_check(const vsc_definition *d, vsc_error *error)
        "describe at least one material, or a membrane");
   for (size_t i = 0; i < d->material_count; i++) check_material(&c, i, &d->materials[i]);
   for (size_t i = 0; i < d->material_count; i++) check_regions(&c, d, i);
+  check_smoothing(&c, d);
   check_selectors(&c, "surfaces", d->surfaces, d->surface_count);
   check_selectors(&c, "node_sets", d->sets, d->set_count);
   for (size_t i = 0; i < d->set_count; i++) {

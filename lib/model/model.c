@@ -18,6 +18,7 @@ static void free_order_and_elements(vsc_model *model)
   vsc_free(model->known);
   vsc_free(model->amplitude);
   vsc_free(model->delay);
+  vsc_smoothing_free(&model->smoothing);
 }
 
 static void free_nodes(vsc_model *model)
@@ -116,10 +117,22 @@ void vsc_supports_place(const vsc_model *model, double time, double load, double
   }
 }
 
+// Item `k` of lists of amplitudes and delays; NULL: 1 and 0.
+static double activation(const vsc_material *material, const double *amplitude, const double *delay,
+                         size_t k, double time)
+{
+  const double late = material->delay + (delay ? delay[k] : 0);
+  return (amplitude ? amplitude[k] : 1) * vsc_curve_value(&material->curve, time - late);
+}
+
 double vsc_model_activation(const vsc_model *model, const vsc_material *material, size_t slot,
                             double time)
 {
-  const double delay = material->delay + (model->delay ? model->delay[slot] : 0);
-  const double amplitude = model->amplitude ? model->amplitude[slot] : 1;
-  return amplitude * vsc_curve_value(&material->curve, time - delay);
+  return activation(material, model->amplitude, model->delay, slot, time);
+}
+
+double vsc_model_edge_activation(const vsc_model *model, const vsc_material *material, size_t edge,
+                                 double time)
+{
+  return activation(material, model->smoothing.amplitude, model->smoothing.delay, edge, time);
 }

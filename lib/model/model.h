@@ -18,6 +18,7 @@
 #include "model/definition.h"
 #include "model/law_bending.h"
 #include "model/law_membrane.h"
+#include "model/smoothing.h"
 #include "model/stencil.h"
 
 #define VSC_NO_ELEMENT UINT32_MAX  // what an empty slot holds
@@ -159,6 +160,7 @@ typedef struct vsc_patch {
   size_t packs;      // where its packs begin in the model's store, bytes
   size_t law_data;   // law PAPER: vsc_chords or vsc_hex_axes of each pack; 0: none
   size_t mixtures;   // mixed: vsc_mixture of each pack; 0: none
+  size_t smoothed;   // smoothed tets: vsc_smoothed_pack of each pack; 0: its elements are not smoothed
 } vsc_patch;
 
 // A surface under pressure.
@@ -234,6 +236,7 @@ typedef struct vsc_terms {
   bool general;  // some springs have couplings or viscosity, which inclusions may carry elsewhere
   vsc_active_kind active;  // NONE when no element is ever active; kinds may not be mixed
   bool nodal_volume;
+  bool smoothed;  // linear tets are
   bool gravity;
 } vsc_terms;
 
@@ -263,6 +266,9 @@ typedef struct vsc_model {
   uint8_t *known;     // pack_count x 4: 1 where the fibre is known
   double *amplitude;  // pack_count x 4: factor of the activation; NULL: 1 everywhere
   double *delay;      // pack_count x 4: ms, added to the material's; NULL: 0 everywhere
+
+  // frames of the edges of smoothed tets
+  vsc_smoothing smoothing;
 
   // nodes
   double *rest;          // node_count x 4: rest position, mm; fourth 0
@@ -415,6 +421,13 @@ static inline const vsc_mixture *vsc_pack_mixture(const vsc_model *model, const 
   return (const vsc_mixture *)(model->store + patch->mixtures) + (k - patch->first_pack);
 }
 
+// What smoothed tets have; only where the patch is smoothed.
+static inline const vsc_smoothed_pack *vsc_pack_smoothed(const vsc_model *model,
+                                                         const vsc_patch *patch, size_t k)
+{
+  return (const vsc_smoothed_pack *)(model->store + patch->smoothed) + (k - patch->first_pack);
+}
+
 static inline bool vsc_patch_is_surface(const vsc_patch *patch)
 {
   return patch->family == VSC_TRIANGLES || patch->family == VSC_BENDS;
@@ -471,5 +484,9 @@ double vsc_obstacle_gap(const vsc_obstacle *obstacle, const double point[3], con
 // Activation of slot `slot` of `material` at `time`: amplitude . curve(time - delay).
 double vsc_model_activation(const vsc_model *model, const vsc_material *material, size_t slot,
                             double time);
+
+// The same of an edge frame, with the means of its tets' amplitudes and delays.
+double vsc_model_edge_activation(const vsc_model *model, const vsc_material *material, size_t edge,
+                                 double time);
 
 #endif

@@ -82,6 +82,10 @@ static vsc_status fill_cell(const filling *fill, size_t element, size_t index, i
   }
   model->mesh_element[slot] = (uint32_t)element;
   model->known[slot] = fill->axes ? fill->axes->known[element] : 0;
+  if (patch->smoothed) {
+    vsc_smoothed_pack *smoothed = (vsc_smoothed_pack *)at(fill, patch->smoothed) + index;
+    for (int i = 0; i < 9; i++) smoothed->axes[i / 3][i % 3][lane] = frame[i];
+  }
   if (patch->law_data == 0) return VSC_OK;
   return fill_paper_data(fill, element, x, frame, index, lane, error);
 }

@@ -188,6 +188,8 @@ static void start_patches(const cutter *cut, vsc_model *model)
     const size_t bytes = patch->family == VSC_TETS ? sizeof(vsc_chords) : sizeof(vsc_hex_axes);
     if (paper) patch->law_data = take(model, patch->pack_count * bytes);
     if (patch->mixed) patch->mixtures = take(model, patch->pack_count * sizeof(vsc_mixture));
+    if (model->terms.smoothed && patch->family == VSC_TETS)
+      patch->smoothed = take(model, patch->pack_count * sizeof(vsc_smoothed_pack));
     model->pack_count += patch->pack_count;
     model->frame_count += (size_t)vsc_family_frames(model, patch->family) * patch->pack_count;
     if (patch->pack_count > model->most_packs) model->most_packs = patch->pack_count;

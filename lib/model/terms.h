@@ -25,6 +25,9 @@ vsc_status vsc_terms_masses(const vsc_mesh *mesh, const vsc_definition *definiti
 // V_n = sum_e V_e / 4 and K_n = sum_e K_e V_e / 4 / V_n over the tets e of law SPRINGS round node n.
 vsc_status vsc_terms_volume_groups(vsc_model *model, vsc_error *error);
 
+// The edge frames of smoothed tets (smoothing.c), after activation.
+vsc_status vsc_terms_smoothing(vsc_model *model, vsc_error *error);
+
 // The named surfaces and node sets.
 vsc_status vsc_terms_selections(const vsc_mesh *mesh, const vsc_definition *definition,
                                 vsc_model *model, vsc_error *error);

@@ -250,6 +250,8 @@ static void say_terms(const vsc_model *model, FILE *out)
             model->pressures[p].peak * vsc_curve_peak(&model->pressures[p].curve),
             model->pressures[p].triangle_count);
   fputc('\n', out);
+  if (model->terms.smoothed)
+    fprintf(out, "smoothed   laws of linear tets on %zu edges\n", model->smoothing.edge_count);
   for (size_t r = 0; r < model->robin_count; r++) {
     const vsc_robin *bed = &model->robins[r];
     fprintf(out,

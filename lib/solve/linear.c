@@ -200,8 +200,8 @@ static vsc_status factorize(vsc_linear *linear, vsc_tangent *tangent, const doub
 {
   enum { MOST_SHIFTS = 4 };
   cholmod_common *common = &linear->common;
-  const double largest = vsc_block_matrix_largest(&tangent->matrix, free);
   vsc_tangent_precondition(linear->model, tangent, x);
+  const double largest = vsc_block_matrix_largest(&tangent->preconditioner, free);
   vsc_block_matrix_hold(&tangent->preconditioner, free, largest);
   if (!analyze(linear, &tangent->preconditioner) || is_too_large(linear))
     return fail_size(linear, error);
@@ -316,10 +316,14 @@ static outcome iterate(vsc_linear *linear, const vsc_tangent *tangent, const dou
 
 // With diagonal blocks, as long as their budget lasts; false: not solved.
 static bool solve_plainly(vsc_linear *linear, vsc_tangent *tangent, const double *free,
-                          const double *b, double tolerance, double *d, bool *indefinite)
+                          const double *x, const double *b, double tolerance, double *d,
+                          bool *indefinite)
 {
   const double before = linear->counts.iterations;
-  invert_blocks(linear, &tangent->matrix);
+  // the matrix itself lacks the laws of smoothed tets
+  const bool smoothed = linear->model->terms.smoothed;
+  if (smoothed) vsc_tangent_precondition(linear->model, tangent, x);
+  invert_blocks(linear, smoothed ? &tangent->preconditioner : &tangent->matrix);
   const outcome end =
       iterate(linear, tangent, free, b, tolerance, fmin(linear->plain_left, MOST_PLAIN), d);
   linear->plain_left -= linear->counts.iterations - before;
@@ -335,7 +339,7 @@ vsc_status vsc_linear_solve(vsc_linear *linear, vsc_tangent *tangent, const doub
   vsc_block_matrix_hold(&tangent->matrix, free, vsc_block_matrix_largest(&tangent->matrix, free));
   memset(linear->p, 0, 4 * linear->model->node_count * sizeof *linear->p);
   if (!linear->factorized && linear->plain_left > 0 &&
-      solve_plainly(linear, tangent, free, b, tolerance, d, indefinite))
+      solve_plainly(linear, tangent, free, x, b, tolerance, d, indefinite))
     return VSC_OK;
   if (linear->factorized &&
       iterate(linear, tangent, free, b, tolerance, linear->with_fresh + STALE, d) == CONVERGED)
@@ -343,7 +347,7 @@ vsc_status vsc_linear_solve(vsc_linear *linear, vsc_tangent *tangent, const doub
   const vsc_status status = factorize(linear, tangent, free, x, error);
   if (status == VSC_SYSTEM && linear->kind == VSC_LINEAR_AUTO) {
     linear->budget = linear->plain_left = INFINITY;
-    solve_plainly(linear, tangent, free, b, tolerance, d, indefinite);
+    solve_plainly(linear, tangent, free, x, b, tolerance, d, indefinite);
     return VSC_OK;
   }
   if (status != VSC_OK) return status;
