@@ -121,27 +121,27 @@ static void a_case_from_mesh_to_report(void **state)
 {
   (void)state;
   static char text[PROGRAM_TEXT];
-  must("$V bench accuracy --only beam-0.3-hexes-1 -o out" SCENES);
-  assert_holds(said, "beam-0.3-hexes-1 ");
+  must("$V bench accuracy --only beam-0.3-quadratic-1 -o out" SCENES);
+  assert_holds(said, "beam-0.3-quadratic-1 ");
   assert_holds(said, " met");
   load_text("out/accuracy.csv", text, sizeof text);
-  const char *row = strstr(text, "beam-0.3-hexes-1,beam,0.3,hexes,80,189,540,");
+  const char *row = strstr(text, "beam-0.3-quadratic-1,beam,0.3,quadratic,400,945,2760,");
   assert_non_null(row);
   const char *value = strstr(row, "\"end sinks\",mm,");
   assert_non_null(value);
-  // twenty hexahedra along a clamped beam: within its target of 2 % of the formula
+  // two quadratic tets through a clamped beam: within its target of 2 % of the formula
   assert_close(strtod(value + strlen("\"end sinks\",mm,"), NULL), vsc_beam_sag(0.3), 0.02, 0);
   assert_true(load_text("out/index.html", text, sizeof text) > 0);
-  assert_holds(text, "<td>beam-0.3-hexes-1</td><td>80</td>");
-  assert_true(load_text("out/meshes/beam-0.3-hexes-1.vtu", text, sizeof text) > 0);
-  assert_true(load_text("out/runs/beam-0.3-hexes-1/summary.json", text, sizeof text) > 0);
+  assert_holds(text, "<td>beam-0.3-quadratic-1</td><td>400</td>");
+  assert_true(load_text("out/meshes/beam-0.3-quadratic-1.vtu", text, sizeof text) > 0);
+  assert_true(load_text("out/runs/beam-0.3-quadratic-1/summary.json", text, sizeof text) > 0);
 }
 
 static void failures_are_told(void **state)
 {
   (void)state;
   // a folder without scenes
-  assert_int_equal(shell("$V bench accuracy --only beam-0.3-hexes-1 -o bad --no-pictures --scenes ."), 3);
+  assert_int_equal(shell("$V bench accuracy --only beam-0.3-quadratic-1 -o bad --no-pictures --scenes ."), 3);
   assert_holds(said, "FAILED");
   assert_holds(said, "beam.yaml");
   assert_int_equal(shell("$V bench accuracy --only nothing -o bad" SCENES), 2);
