@@ -47,6 +47,9 @@ static void powers_are_found(void **state)
   errors[2] = 0;
   assert_close(vsc_observed_order(4, h, errors), 2.5, 1e-12, 0);
   assert_true(isnan(vsc_observed_order(1, h, errors)));
+  // 5 + h^2 at 4, 2, 1
+  assert_close(vsc_own_order((double[3]){4, 2, 1}, (double[3]){21, 9, 6}), 2, 1e-12, 0);
+  assert_true(isnan(vsc_own_order((double[3]){4, 3, 1}, (double[3]){21, 9, 6})));
   for (int k = 0; k < 200; k++) {
     times[k] = 0.05 * k;
     wave[k] = sin(2 * M_PI * 0.7 * times[k] + 0.4);

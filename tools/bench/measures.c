@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "base/mem.h"
@@ -141,6 +142,36 @@ vsc_status vsc_measure_frequency(const vsc_outcome *outcome, const vsc_bench_qua
   if (status == VSC_OK)
     measured->value = vsc_curve_frequency(outcome->signals->rows, time, values);
   return status;
+}
+
+// How far a column falls below its first value.
+static double fall(size_t rows, const double *values)
+{
+  double least = INFINITY;
+  for (size_t r = 0; r < rows; r++) least = fmin(least, values[r]);
+  return values[0] - least;
+}
+
+vsc_status vsc_measure_stroke(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                              vsc_measured *measured, vsc_error *error)
+{
+  const double *values;
+  const char *const at = strstr(outcome->folder, "-implicit-");
+  vsc_status status = find_column(outcome, quantity->column, &values, error);
+  if (status != VSC_OK) return status;
+  measured->value = fall(outcome->signals->rows, values);
+  if (strcmp(outcome->of->variant->name, "implicit") != 0 || at == NULL) return VSC_OK;
+  char file[VSC_RESULT_PATH];
+  vsc_signals *other;
+  snprintf(file, sizeof file, "%.*s-explicit-%s/signals.csv", (int)(at - outcome->folder),
+           outcome->folder, at + strlen("-implicit-"));
+  if (access(file, R_OK) != 0) return VSC_OK;
+  status = vsc_signals_read(file, &other, error);
+  if (status != VSC_OK) return status;
+  if ((values = vsc_signals_find(other, quantity->column)) != NULL)
+    measured->reference = fall(other->rows, values);
+  vsc_signals_free(other);
+  return VSC_OK;
 }
 
 // ---- reference curves

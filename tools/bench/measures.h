@@ -14,6 +14,10 @@ vsc_bench_measure vsc_measure_place, vsc_measure_move;
 // (vsc_curve_frequency).
 vsc_bench_measure vsc_measure_signal, vsc_measure_least, vsc_measure_frequency;
 
+// By how much quantity->column falls below its first value. Of a case of the variant "implicit" the
+// reference is that of "explicit", whose results lie beside its own; other cases have none.
+vsc_bench_measure vsc_measure_stroke;
+
 // Mean distance from the origin (sphere) or from the axis z (cylinder) of the nodes that rest at the
 // distance quantity->at[0], in the last frame; how much larger it is than at rest.
 vsc_bench_measure vsc_measure_sphere, vsc_measure_cylinder, vsc_measure_sphere_move,

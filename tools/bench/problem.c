@@ -27,6 +27,7 @@ const vsc_bench_problem *const vsc_bench_problems[] = {
     &vsc_bench_rubber_cylinder,
     &vsc_bench_beam,
     &vsc_bench_vibration,
+    &vsc_bench_beat,
     &vsc_bench_arostica_0a,
     &vsc_bench_arostica_0b,
     &vsc_bench_arostica_1,

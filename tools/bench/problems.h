@@ -18,6 +18,7 @@ extern const vsc_bench_problem vsc_bench_lame_sphere, vsc_bench_lame_cylinder;  
 extern const vsc_bench_problem vsc_bench_rubber_sphere, vsc_bench_rubber_cylinder;  // at large strain
 extern const vsc_bench_problem vsc_bench_beam;       // Timoshenko's, up to a Poisson ratio of 0.4999
 extern const vsc_bench_problem vsc_bench_vibration;  // a soft bar swings
+extern const vsc_bench_problem vsc_bench_beat;       // time steps of the shipped beat
 
 // Arostica et al. 2025, Comput. Methods Appl. Mech. Engrg. 435:117485.
 extern const vsc_bench_problem vsc_bench_arostica_0a;            // a ventricle contracts

@@ -15,9 +15,9 @@ static const vsc_bench_size cubes[] = {
 };
 
 static const vsc_bench_quantity sags[] = {
-    // two independent programs find it with 10 thousand linear tets
+    // two independent programs find it with ten thousand linear tets; finer meshes go down further
     {.name = "far corner sinks", .unit = "mm", .measure = vsc_measure_move, .at = {100, 100, 100}, .axis = 2,
-     .reference = -13.61, .percent = 2, .held = VSC_BENCH_PLAIN},
+     .reference = -13.61, .percent = 6, .held = VSC_BENCH_PLAIN},
 };
 
 const vsc_bench_problem vsc_bench_sagging_block = {

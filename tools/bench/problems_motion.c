@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Problems in time: a bar that swings, and the ventricles of Arostica et al. 2025 with the curves of its
 // ten programs.
+#include <math.h>
+
 #include "tools/bench/measures.h"
 #include "tools/bench/problems.h"
 
@@ -94,4 +96,36 @@ const vsc_bench_problem vsc_bench_arostica_biventricle = {
     .scene = "arostica_biventricle.yaml", .mesh = "biventricle_coarse.vtu",
     .variants = VSC_COUNTED(explicit_or_not), .sizes = VSC_COUNTED(two_ventricles),
     .quantities = VSC_COUNTED(two_beat),
+};
+
+// ---- order in time, and explicit against implicit, on the first half second of a beat
+
+static const vsc_bench_variant steps[] = {
+    {"explicit", 0, {"solve=explicit"}},
+    {"implicit", 0, {"solve=implicit"}},
+    {"explicit-0.016", 0.016, {"solve=explicit", "time.step=0.016 ms"}},
+    {"explicit-0.008", 0.008, {"solve=explicit", "time.step=0.008 ms"}},
+    {"explicit-0.004", 0.004, {"solve=explicit", "time.step=0.004 ms"}},
+    {"implicit-4", 4, {"solve=implicit", "time.step=4 ms"}},
+    {"implicit-2", 2, {"solve=implicit", "time.step=2 ms"}},
+    {"implicit-1", 1, {"solve=implicit", "time.step=1 ms"}},
+};
+
+static const vsc_bench_size small_hearts[] = {
+    {VSC_BENCH_NODAL, "--around=16 --along=7 --layers=2"},
+};
+
+static const vsc_bench_quantity strokes[] = {
+    {.name = "stroke", .unit = "ml", .measure = vsc_measure_stroke, .column = "cavity_endo",
+     .reference = NAN, .percent = 0.5},
+    {.name = "cavity at the end", .unit = "ml", .measure = vsc_measure_signal, .column = "cavity_endo",
+     .reference = NAN},
+};
+
+const vsc_bench_problem vsc_bench_beat = {
+    .name = "beat", .title = "Half a beat: order in time, explicit against implicit",
+    .scene = "../beat.yaml", .shape = "lv",
+    .settings = {"time.end=0.4 s", "output.frames=0.4 s"},
+    .variants = VSC_COUNTED(steps), .sizes = VSC_COUNTED(small_hearts),
+    .quantities = VSC_COUNTED(strokes),
 };
