@@ -2,45 +2,73 @@
 #include "fibers/ellipsoid.h"
 
 #include <math.h>
+#include <stdbool.h>
 
 #include "base/vec3.h"
 #include "fibers/helix.h"
 
 enum { HALVINGS = 60 };  // of an interval of 4: to rounding
 
-double vsc_ellipsoid_depth(const vsc_ellipsoid_def *wall, const double long_axis[3],
-                           const double point[3], double outwards[3])
+static double radius(const vsc_ellipsoid_def *wall, double t)
 {
-  double across[3], axis[3] = {long_axis[0], long_axis[1], long_axis[2]};
+  return (1 - t) * wall->endo_radius + t * wall->epi_radius;
+}
+
+static double half_length(const vsc_ellipsoid_def *wall, double t)
+{
+  return (1 - t) * wall->endo_length + t * wall->epi_length;
+}
+
+// A point's distance z along the axis (made a unit vector) from the centre, and the vector from the axis.
+static double split(const vsc_ellipsoid_def *wall, double axis[3], const double point[3],
+                    double across[3])
+{
   vsc_normalize(axis);
   vsc_subtract(point, wall->centre, across);
   const double z = vsc_dot(across, axis);
   for (int a = 0; a < 3; a++) across[a] -= z * axis[a];
-  const double square = vsc_dot(across, across);
-  double low = -1, high = 3, rs = 1, rl = 1;
+  return z;
+}
+
+double vsc_ellipsoid_depth(const vsc_ellipsoid_def *wall, const double long_axis[3],
+                           const double point[3])
+{
+  double across[3], axis[3] = {long_axis[0], long_axis[1], long_axis[2]};
+  const double z = split(wall, axis, point, across), square = vsc_dot(across, across);
+  double low = -1, high = 3;
   for (int i = 0; i < HALVINGS; i++) {
-    const double t = (low + high) / 2;
-    rs = (1 - t) * wall->endo_radius + t * wall->epi_radius;
-    rl = (1 - t) * wall->endo_length + t * wall->epi_length;
+    const double t = (low + high) / 2, rs = radius(wall, t), rl = half_length(wall, t);
     const bool outside = rs <= 0 || rl <= 0 || square / (rs * rs) + z * z / (rl * rl) > 1;
     if (outside)
       low = t;
     else
       high = t;
   }
-  for (int a = 0; outwards != NULL && a < 3; a++)
-    outwards[a] = across[a] / (rs * rs) + z * axis[a] / (rl * rl);
   return (low + high) / 2;
+}
+
+void vsc_ellipsoid_normal(const vsc_ellipsoid_def *wall, const double long_axis[3],
+                          const double point[3], double t, double outwards[3])
+{
+  double across[3], axis[3] = {long_axis[0], long_axis[1], long_axis[2]};
+  const double z = split(wall, axis, point, across);
+  const double rs = radius(wall, t), rl = half_length(wall, t);
+  for (int a = 0; a < 3; a++) outwards[a] = across[a] / (rs * rs) + z * axis[a] / (rl * rl);
+}
+
+int vsc_ellipsoid_frame_at(const vsc_fiber_def *definition, const double point[3], double t,
+                           double frame[9])
+{
+  double outwards[3];
+  vsc_ellipsoid_normal(&definition->ellipsoid, definition->long_axis, point, t, outwards);
+  const double angle = (1 - t) * definition->endo_angle + t * definition->epi_angle;
+  return vsc_helix_frame(outwards, definition->long_axis, angle, frame);
 }
 
 int vsc_ellipsoid_frame(const vsc_fiber_def *definition, const double point[3], double frame[9])
 {
-  double outwards[3];
-  const double depth =
-      vsc_ellipsoid_depth(&definition->ellipsoid, definition->long_axis, point, outwards);
-  const double t = fmin(fmax(depth, 0), 1);
-  const double angle = (1 - t) * definition->endo_angle + t * definition->epi_angle;
-  return vsc_helix_frame(outwards, definition->long_axis, angle, frame);
+  const double t = vsc_ellipsoid_depth(&definition->ellipsoid, definition->long_axis, point);
+  return vsc_ellipsoid_frame_at(definition, point, fmin(fmax(t, 0), 1), frame);
 }
 
 vsc_status vsc_ellipsoid_check(const vsc_fiber_def *definition, vsc_error *error)

@@ -14,8 +14,10 @@
 // Land's problem 3 (rs = 7 + 3t, rl = 17 + 3t mm): endo_angle 90, epi_angle -90 degrees. Its printed
 // alpha = 90 - 180 t is this angle, for dx/du points to the base there. Arostica's (rs = 25 + 10t,
 // rl = 90 + 7t mm): endo_angle 60, epi_angle -60 degrees; its printed alpha = -60 + 120 t is minus this
-// angle, for e_u points to the apex. There t is the solution of Laplace's equation, which differs from the
-// depth by less than 0.03 on the benchmark's mesh.
+// angle, for e_u points to the apex. Its t solves Laplace's equation in the wall, 0 inside and 1 outside:
+// vsc_fibers_helix does so when the definition names the surfaces `endo` and `epi`, and takes the ellipsoid
+// only for its normal. (The two depths differ by 0.2 at the apex of that ventricle, fibres by 5 degrees on
+// average.)
 #ifndef VSC_FIBERS_ELLIPSOID_H
 #define VSC_FIBERS_ELLIPSOID_H
 
@@ -23,12 +25,22 @@
 #include "model/fiber_def.h"
 
 // Depth t of a point (mm), limited to -1 and 3, by bisection; `long_axis` points from apex to base (any
-// length but 0). `outwards`, unless NULL, becomes the ellipsoid's normal there (of any length; zero in
-// the centre).
+// length but 0).
 double vsc_ellipsoid_depth(const vsc_ellipsoid_def *wall, const double long_axis[3],
-                           const double point[3], double outwards[3]);
+                           const double point[3]);
 
-// The frame (rows f, s, n; s = e_t) of definition->ellipsoid at a point. The angle of points beside
+// The gradient of rho^2/rs(t)^2 + z^2/rl(t)^2 (but for a factor 2) at a point: of any length, the normal
+// where t is its depth, zero in the centre.
+void vsc_ellipsoid_normal(const vsc_ellipsoid_def *wall, const double long_axis[3],
+                          const double point[3], double t, double outwards[3]);
+
+// The frame (rows f, s, n; s = e_t) of definition->ellipsoid at a point, with vsc_ellipsoid_normal and the
+// angle for the depth t. Returns 0, leaving the frame alone, in the centre;
+// else 1.
+int vsc_ellipsoid_frame_at(const vsc_fiber_def *definition, const double point[3], double t,
+                           double frame[9]);
+
+// The same with the point's own depth. The angle of points beside
 // the wall is that of its nearer side. Returns 0, leaving the frame alone, in the centre; else 1.
 int vsc_ellipsoid_frame(const vsc_fiber_def *definition, const double point[3], double frame[9]);
 

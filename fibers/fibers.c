@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/vec3.h"
+#include "fibers/ellipsoid.h"
 #include "fibers/helix.h"
 #include "fibers/synthetic.h"
 #include "io/vtk.h"
@@ -171,6 +172,10 @@ static vsc_status from_depth(const vsc_mesh *mesh, const vsc_fiber_def *definiti
                              const vsc_surface *surfaces, size_t count, vsc_axes *axes,
                              vsc_error *error)
 {
+  if (definition->source == VSC_FIBER_ELLIPSOID) {
+    const vsc_status status = vsc_ellipsoid_check(definition, error);
+    if (status != VSC_OK) return status;
+  }
   const vsc_surface *endo = find_surface(surfaces, count, definition->endo, "endocardium", error);
   if (endo == NULL) return VSC_INPUT;
   const vsc_surface *epi = find_surface(surfaces, count, definition->epi, "epicardium", error);
@@ -182,6 +187,8 @@ static vsc_status from_source(const vsc_mesh *mesh, const vsc_fiber_def *definit
                               const vsc_surface *surfaces, size_t count, vsc_axes *axes,
                               vsc_fiber_report *report, vsc_error *error)
 {
+  const bool between = definition->source == VSC_FIBER_ELLIPSOID && definition->endo[0] != '\0';
+  if (between) return from_depth(mesh, definition, surfaces, count, axes, error);
   switch (definition->source) {
     case VSC_FIBER_NONE: return VSC_OK;
     case VSC_FIBER_MAP: return from_map(mesh, &definition->map, axes, report, error);

@@ -8,6 +8,7 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
+#include "fibers/ellipsoid.h"
 #include "mesh/split.h"
 
 static const double PARALLEL = 1e-3;  // sine of the angle below which two axes are one
@@ -346,10 +347,14 @@ static void set_axes(const vsc_mesh *mesh, const vsc_fiber_def *definition, cons
   for (size_t e = 0; e < mesh->element_count; e++) {
     int known = 1;
     for (int q = 0; q < axes->points; q++) {
-      double e_t[3], t;
+      double e_t[3], at[3], t, *frame = vsc_axes_frame(axes, e, q);
       depth_at(mesh, e, &quadratic, q, depth, nodal, &t, e_t);
       const double angle = (1 - t) * definition->endo_angle + t * definition->epi_angle;
-      known &= vsc_helix_frame(e_t, definition->long_axis, angle, vsc_axes_frame(axes, e, q));
+      vsc_axes_place(axes, mesh, &quadratic, e, q, at);
+      if (definition->source == VSC_FIBER_ELLIPSOID)
+        known &= vsc_ellipsoid_frame_at(definition, at, t, frame);
+      else
+        known &= vsc_helix_frame(e_t, definition->long_axis, angle, frame);
     }
     vsc_axes_finish(axes, e, known);
   }

@@ -37,6 +37,7 @@ vsc_status vsc_helix_depth(const vsc_mesh *mesh, const vsc_surface *endo, const 
 // its nodes), helix angle linear in the mean depth of its nodes from definition->endo_angle to
 // definition->epi_angle; of quadratic tets with depth and gradient at each point. Elements without any gradient stay unknown. VSC_INPUT for a zero long
 // axis.
+// Of the source ELLIPSOID e_t is the ellipsoid's normal instead (vsc_ellipsoid_frame_at).
 vsc_status vsc_fibers_helix(const vsc_mesh *mesh, const vsc_fiber_def *definition,
                             const vsc_surface *endo, const vsc_surface *epi, vsc_axes *axes,
                             vsc_error *error);

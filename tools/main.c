@@ -30,7 +30,7 @@ static const verb verbs[] = {
     {"measure", vsc_verb_measure, false, "how a slice of the tissue has moved, turned, changed size"},
     {"schema", vsc_verb_schema, false, "print a commented template of everything a scene can say"},
     {"generate", vsc_verb_generate, false, "make the meshes and angle maps that ship with viscera"},
-    {"bench", vsc_verb_bench, true, "how many element updates a second this machine does"},
+    {"bench", vsc_verb_bench, true, "this machine's element updates a second; accuracy against known answers"},
     {"calibrate", vsc_verb_calibrate, true,
      "stiffness in every direction; springs for wanted moduli"},
     {"plot", run_plot, false, "draw the graphs and pictures of a simulation's results"},

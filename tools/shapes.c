@@ -8,7 +8,6 @@
 #include "base/mem.h"
 #include "base/vec3.h"
 #include "fibers/ellipsoid.h"
-#include "fibers/helix.h"
 #include "fibers/sample.h"
 #include "mesh/select.h"
 #include "tools/shapes_bricks.h"
@@ -130,26 +129,29 @@ double vsc_lv_volume(const vsc_lv_shape *lv, double depth)
 
 static const double z_axis[3] = {0, 0, 1}, x_axis[3] = {1, 0, 0};
 
-static double depth_and_normal(const vsc_lv_shape *lv, const double point[3], double outwards[3])
+static vsc_ellipsoid_def wall_of(const vsc_lv_shape *lv)
 {
-  const vsc_ellipsoid_def wall = {.endo_radius = lv->endo_radius,
-                                  .endo_length = lv->endo_length,
-                                  .epi_radius = lv->epi_radius,
-                                  .epi_length = lv->epi_length};
-  return vsc_ellipsoid_depth(&wall, lv->along_x ? x_axis : z_axis, point, outwards);
+  return (vsc_ellipsoid_def){.endo_radius = lv->endo_radius,
+                             .endo_length = lv->endo_length,
+                             .epi_radius = lv->epi_radius,
+                             .epi_length = lv->epi_length};
 }
 
 double vsc_lv_depth(const vsc_lv_shape *lv, const double point[3])
 {
-  return depth_and_normal(lv, point, NULL);
+  const vsc_ellipsoid_def wall = wall_of(lv);
+  return vsc_ellipsoid_depth(&wall, lv->along_x ? x_axis : z_axis, point);
 }
 
 void vsc_lv_frame(const vsc_lv_shape *lv, const double point[3], double endo_angle,
                   double epi_angle, double frame[9])
 {
-  double outwards[3];
-  const double t = depth_and_normal(lv, point, outwards);
-  vsc_helix_frame(outwards, lv->along_x ? x_axis : z_axis, (1 - t) * endo_angle + t * epi_angle, frame);
+  const double *axis = lv->along_x ? x_axis : z_axis;
+  const vsc_fiber_def fibers = {.ellipsoid = wall_of(lv),
+                                .long_axis = {axis[0], axis[1], axis[2]},
+                                .endo_angle = endo_angle,
+                                .epi_angle = epi_angle};
+  vsc_ellipsoid_frame_at(&fibers, point, vsc_lv_depth(lv, point), frame);
 }
 
 // The nodes of one layer: a square patch of (side + 1)^2 nodes at the apex, then `along` rings of

@@ -100,6 +100,21 @@ static vsc_status check_helix(vsc_reading *reading, const vsc_scene *scene)
   return VSC_OK;
 }
 
+static vsc_status check_ellipsoid(vsc_reading *reading, const vsc_scene *scene)
+{
+  const vsc_fiber_def *fibers = &scene->fibers;
+  const size_t length = vsc_enter(reading, "fibers.ellipsoid");
+  if (fibers->ellipsoid.epi_radius == 0)
+    return vsc_reading_fail(reading, "missing; source: ellipsoid needs its radii and lengths");
+  if (fibers->endo[0] == '\0' && fibers->epi[0] == '\0') return VSC_OK;
+  vsc_status status =
+      check_wall(reading, &scene->definition, "endo", fibers->endo, fibers->endo_angle);
+  if (status == VSC_OK)
+    status = check_wall(reading, &scene->definition, "epi", fibers->epi, fibers->epi_angle);
+  if (status == VSC_OK) vsc_leave(reading, length);
+  return status;
+}
+
 static vsc_status check_fibers(vsc_reading *reading, const vsc_scene *scene)
 {
   vsc_status status = VSC_OK;
@@ -114,6 +129,8 @@ static vsc_status check_fibers(vsc_reading *reading, const vsc_scene *scene)
       return vsc_reading_fail(reading, "zero or missing; expected a direction such as [1, 0, 0]");
   } else if (scene->fibers.source == VSC_FIBER_HELIX) {
     status = check_helix(reading, scene);
+  } else if (scene->fibers.source == VSC_FIBER_ELLIPSOID) {
+    status = check_ellipsoid(reading, scene);
   }
   if (status == VSC_OK) vsc_leave(reading, 0);
   return status;

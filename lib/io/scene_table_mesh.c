@@ -138,6 +138,9 @@ GROUP(static, helix, -1);
 static const vsc_row ellipsoid_rows[] = {
     {"centre", VECTOR(vsc_fiber_def, ellipsoid.centre, VSC_LENGTH), .text = "[0 mm, 0 mm, 0 mm]",
      .meaning = "of both ellipsoids"},
+    {"endo", NAME(vsc_fiber_def, endo), .commented = true, .text = "endo",
+     .meaning = "depth by Laplace's equation from this surface; absent: the ellipsoids' own"},
+    {"epi", NAME(vsc_fiber_def, epi), .commented = true, .text = "epi", .meaning = "to this one"},
     {"long_axis", VECTOR(vsc_fiber_def, long_axis, VSC_NUMBER), .text = "[0, 0, 1]",
      .meaning = "from apex to base, of any length"},
     {"endo_radius", QUANTITY(vsc_fiber_def, ellipsoid.endo_radius, VSC_LENGTH),

@@ -62,8 +62,9 @@ typedef struct vsc_fiber_def {
   char sheet_array[VSC_NAME];  // ARRAYS: "sheet"; empty: by rule
   double direction[3];         // CONSTANT: any length
   double sheet_direction[3];   // CONSTANT: 0 0 0: by rule
-  char endo[VSC_NAME];         // HELIX: surface where the depth is 0
-  char epi[VSC_NAME];          // HELIX: surface where the depth is 1
+  char endo[VSC_NAME];         // HELIX, ELLIPSOID: surface where the depth is 0; empty: the
+                               // ellipsoid's own depth
+  char epi[VSC_NAME];          // HELIX, ELLIPSOID: surface where the depth is 1
   double endo_angle;    // HELIX, ELLIPSOID: helix angle at the endocardium, radians; default +60 degrees
   double epi_angle;     // HELIX, ELLIPSOID: at the epicardium, radians; default -60 degrees
   double long_axis[3];  // HELIX, ELLIPSOID: from apex to base; default 0 0 1

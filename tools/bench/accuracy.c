@@ -32,6 +32,7 @@ static const char help[] =
     "      --scenes DIR      where the scenes are [data/benchmarks]\n"
     "      --reference DIR   where curves of others are, to compare with [../shared/benchmarks if it is\n"
     "                        there; else such comparisons are skipped]\n"
+    "  -s, --set KEY=VALUE   of every scene, after the cases' own settings\n"
     "      --limit SECONDS   of processor time for each case [1200]\n"
     "      --no-pictures     none of the results\n"
     "  -t, --threads N       number of threads (default: all processors)\n"
@@ -43,6 +44,7 @@ static const char help[] =
 
 typedef struct wish {
   const char *only, *scenes, *reference;
+  const char *settings[VSC_BENCH_SETTINGS];  // of every scene; NULL ends them
   char output[PATH_MAX];  // absolute
   double limit;
   bool list, quick, pictures;
@@ -103,6 +105,7 @@ static vsc_status run_scene(const wish *wish, const vsc_bench_case *at, files *f
   count = add_settings(at->problem->settings, count, words);
   count = add_settings(at->variant->settings, count, words);
   count = add_settings(at->kind->settings, count, words);
+  count = add_settings(wish->settings, count, words);
   words[count++] = scene;
   words[count] = NULL;
   return vsc_child(vsc_verb_run, words, files->log, wish->limit, cost, error);
@@ -235,6 +238,17 @@ static int keep_output(wish *wish, const char *output)
   return VSC_INPUT;
 }
 
+static int keep_setting(wish *wish, const char *setting)
+{
+  for (int k = 0; k < VSC_BENCH_SETTINGS; k++)
+    if (wish->settings[k] == NULL) {
+      wish->settings[k] = setting;
+      return VSC_OK;
+    }
+  fprintf(stderr, "viscera: bench accuracy: more than %d times --set\n", VSC_BENCH_SETTINGS);
+  return VSC_INPUT;
+}
+
 enum { LIST = 256, ONLY, QUICK, SCENES, REFERENCE, LIMIT, NO_PICTURES };
 
 static const struct option options[] = {{"output", required_argument, NULL, 'o'},
@@ -243,6 +257,7 @@ static const struct option options[] = {{"output", required_argument, NULL, 'o'}
                                         {"quick", no_argument, NULL, QUICK},
                                         {"scenes", required_argument, NULL, SCENES},
                                         {"reference", required_argument, NULL, REFERENCE},
+                                        {"set", required_argument, NULL, 's'},
                                         {"limit", required_argument, NULL, LIMIT},
                                         {"no-pictures", no_argument, NULL, NO_PICTURES},
                                         {"threads", required_argument, NULL, 't'},
@@ -269,6 +284,8 @@ static int keep_option(wish *wish, int option, const char *text)
     case REFERENCE:
       wish->reference = text;
       return VSC_OK;
+    case 's':
+      return keep_setting(wish, text);
     case LIMIT:
       wish->limit = strtod(text, NULL);
       if (wish->limit >= 1 && wish->limit <= 1e6) return VSC_OK;
@@ -289,7 +306,7 @@ int vsc_bench_accuracy(int argc, char **argv)
   wish wish = {.scenes = "data/benchmarks", .limit = 1200, .pictures = true};
   int code = keep_output(&wish, "accuracy");
   optind = 0;
-  for (int c; code == VSC_OK && (c = getopt_long(argc, argv, "o:t:h", options, NULL)) != -1;) {
+  for (int c; code == VSC_OK && (c = getopt_long(argc, argv, "o:s:t:h", options, NULL)) != -1;) {
     if (c == 'h') return fputs(help, stdout) < 0 ? VSC_SYSTEM : VSC_OK;
     code = keep_option(&wish, c, optarg);
   }

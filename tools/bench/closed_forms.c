@@ -43,7 +43,7 @@ double vsc_cylinder_inner(double p)
   return solve(cylinder_pressure, p, 100);
 }
 
-static const double lame_p = 0.01, lame_a = 1, lame_b = 2;
+static const double lame_p = 1e-6, lame_a = 1, lame_b = 2;
 
 double vsc_sphere_move(double nu)
 {

@@ -18,7 +18,7 @@ double vsc_beam_sag(double nu);
 double vsc_sphere_inner(double p);
 double vsc_cylinder_inner(double p);
 
-// Move of the inner wall, mm, of the same bodies at small strain under p = 10 Pa with E = 1 kPa and the
+// Move of the inner wall, mm, of the same bodies at small strain under p = 1 mPa with E = 1 kPa and the
 // Poisson ratio nu (Lame 1852):
 //   sphere    u(a) = p a^3 / (b^3 - a^3) (a / (3 K) + b^3 / (4 mu a^2))
 //   cylinder  u(a) = (1 + nu) / E p a^2 / (b^2 - a^2) ((1 - 2 nu) a + b^2 / a)

@@ -48,6 +48,13 @@ double vsc_observed_order(size_t count, const double *h, const double *errors)
   return n >= 2 && spread > 0 ? (n * xy - x * y) / spread : NAN;
 }
 
+double vsc_own_order(const double h[3], const double values[3])
+{
+  const double ratio = h[0] / h[1];
+  if (!(ratio > 1) || fabs(h[1] / h[2] - ratio) > 1e-9 * ratio) return NAN;
+  return log(fabs(values[0] - values[1]) / fabs(values[1] - values[2])) / log(ratio);
+}
+
 double vsc_curve_frequency(size_t count, const double *times, const double *values)
 {
   double first = NAN, last = NAN, passages = 0;

@@ -20,6 +20,10 @@ double vsc_band_share(size_t count, const double *values, const double *low, con
 // error; NAN for fewer than two.
 double vsc_observed_order(size_t count, const double *h, const double *errors);
 
+// The exponent p from values[0..2] with steps h[0] > h[1] > h[2], each the same part of the one before, by
+// their differences: p = log (|v0 - v1| / |v1 - v2|) / log (h0 / h1); NAN where the steps are not so.
+double vsc_own_order(const double h[3], const double values[3]);
+
 // Oscillations per unit of time: half the number of passages through 0 (linear between points) behind
 // the first, over the time from the first to the last; NAN for fewer than two passages.
 double vsc_curve_frequency(size_t count, const double *times, const double *values);

@@ -3,13 +3,15 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "base/mem.h"
+#include "mesh/place.h"
 #include "tools/bench/curves.h"
 #include "tools/results.h"
 
-// ---- nodes
+// ---- points of the tissue
 
 static double body_size(const vsc_mesh *mesh)
 {
@@ -18,38 +20,35 @@ static double body_size(const vsc_mesh *mesh)
   return hypot(hypot(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
 }
 
-static vsc_status find_node(const vsc_outcome *outcome, const double at[3], size_t *node,
-                            vsc_error *error)
+vsc_status vsc_moved_point(const vsc_outcome *outcome, const double at[3], double now[3],
+                           vsc_error *error)
 {
-  const vsc_mesh *mesh = outcome->mesh;
-  double nearest = INFINITY;
-  for (size_t n = 0; n < mesh->node_count; n++) {
-    const double *x = mesh->nodes + 3 * n;
-    const double far = hypot(hypot(x[0] - at[0], x[1] - at[1]), x[2] - at[2]);
-    if (far < nearest) {
-      nearest = far;
-      *node = n;
-    }
-  }
-  if (nearest <= 1e-4 * body_size(mesh)) return VSC_OK;
-  return vsc_fail(error, VSC_INPUT, "no node rests at (%g, %g, %g) mm, the nearest is %g mm away", at[0],
-                  at[1], at[2], nearest);
-}
-
-vsc_status vsc_measure_move(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
-                            vsc_measured *measured, vsc_error *error)
-{
-  size_t node = 0;
-  const vsc_status status = find_node(outcome, quantity->at, &node, error);
-  if (status == VSC_OK) measured->value = outcome->moved[3 * node + (size_t)quantity->axis];
-  return status;
+  vsc_place place;
+  double moved[3];
+  vsc_place_find(outcome->mesh, at, &place);
+  // straight edges of coarse meshes may pass inside of a round wall
+  if (place.distance > 0.01 * body_size(outcome->mesh))
+    return vsc_fail(error, VSC_INPUT, "(%g, %g, %g) mm lies outside the body, by %g mm", at[0], at[1],
+                    at[2], place.distance);
+  vsc_place_value(outcome->mesh, &place, 3, outcome->moved, moved);
+  for (int a = 0; a < 3; a++) now[a] = at[a] + moved[a];
+  return VSC_OK;
 }
 
 vsc_status vsc_measure_place(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
                              vsc_measured *measured, vsc_error *error)
 {
-  const vsc_status status = vsc_measure_move(outcome, quantity, measured, error);
-  measured->value += quantity->at[quantity->axis];
+  double now[3] = {0};
+  const vsc_status status = vsc_moved_point(outcome, quantity->at, now, error);
+  measured->value = now[quantity->axis];
+  return status;
+}
+
+vsc_status vsc_measure_move(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                            vsc_measured *measured, vsc_error *error)
+{
+  const vsc_status status = vsc_measure_place(outcome, quantity, measured, error);
+  measured->value -= quantity->at[quantity->axis];
   return status;
 }
 
@@ -122,6 +121,18 @@ vsc_status vsc_measure_signal(const vsc_outcome *outcome, const vsc_bench_quanti
   return status;
 }
 
+vsc_status vsc_measure_least(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                             vsc_measured *measured, vsc_error *error)
+{
+  const double *values;
+  const vsc_status status = find_column(outcome, quantity->column, &values, error);
+  if (status != VSC_OK) return status;
+  measured->value = INFINITY;
+  for (size_t r = 0; r < outcome->signals->rows; r++)
+    measured->value = fmin(measured->value, values[r]);
+  return VSC_OK;
+}
+
 vsc_status vsc_measure_frequency(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
                                  vsc_measured *measured, vsc_error *error)
 {
@@ -133,11 +144,40 @@ vsc_status vsc_measure_frequency(const vsc_outcome *outcome, const vsc_bench_qua
   return status;
 }
 
+// How far a column falls below its first value.
+static double fall(size_t rows, const double *values)
+{
+  double least = INFINITY;
+  for (size_t r = 0; r < rows; r++) least = fmin(least, values[r]);
+  return values[0] - least;
+}
+
+vsc_status vsc_measure_stroke(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                              vsc_measured *measured, vsc_error *error)
+{
+  const double *values;
+  const char *const at = strstr(outcome->folder, "-implicit-");
+  vsc_status status = find_column(outcome, quantity->column, &values, error);
+  if (status != VSC_OK) return status;
+  measured->value = fall(outcome->signals->rows, values);
+  if (strcmp(outcome->of->variant->name, "implicit") != 0 || at == NULL) return VSC_OK;
+  char file[VSC_RESULT_PATH];
+  vsc_signals *other;
+  snprintf(file, sizeof file, "%.*s-explicit-%s/signals.csv", (int)(at - outcome->folder),
+           outcome->folder, at + strlen("-implicit-"));
+  if (access(file, R_OK) != 0) return VSC_OK;
+  status = vsc_signals_read(file, &other, error);
+  if (status != VSC_OK) return status;
+  if ((values = vsc_signals_find(other, quantity->column)) != NULL)
+    measured->reference = fall(other->rows, values);
+  vsc_signals_free(other);
+  return VSC_OK;
+}
+
 // ---- reference curves
 
-// Reads quantity->file; *table is NULL, and measured->skipped true, where there is no such file.
-static vsc_status open_reference(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
-                                 vsc_signals **table, vsc_measured *measured, vsc_error *error)
+vsc_status vsc_open_reference(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                              vsc_signals **table, vsc_measured *measured, vsc_error *error)
 {
   char file[VSC_RESULT_PATH];
   snprintf(file, sizeof file, "%s/%s", outcome->reference != NULL ? outcome->reference : "",
@@ -145,54 +185,6 @@ static vsc_status open_reference(const vsc_outcome *outcome, const vsc_bench_qua
   *table = NULL;
   measured->skipped = outcome->reference == NULL || access(file, R_OK) != 0;
   return measured->skipped ? VSC_OK : vsc_signals_read(file, table, error);
-}
-
-// s of a node of the mid-wall line, the part of the way from u = -pi to -arccos (5 / 18.5) of
-//   rho = 8.5 sin u, z = 18.5 cos u;
-// NAN for others.
-static double midline_part(const double x[3])
-{
-  const double u = -acos(fmax(-1, fmin(1, x[2] / 18.5)));
-  const double wall = x[0] * x[0] / (8.5 * 8.5) + x[2] * x[2] / (18.5 * 18.5);
-  if (fabs(x[1]) > 1e-6 || x[0] > 1e-6 || fabs(wall - 1) > 2e-3) return NAN;
-  return (u + M_PI) / (M_PI - acos(5 / 18.5));
-}
-
-vsc_status vsc_measure_midline_peak(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
-                                    vsc_measured *measured, vsc_error *error)
-{
-  (void)quantity;
-  measured->value = -INFINITY;
-  for (size_t n = 0; n < outcome->mesh->node_count; n++)
-    if (!isnan(midline_part(outcome->mesh->nodes + 3 * n)))
-      measured->value = fmax(measured->value, outcome->moved[3 * n + 1]);
-  if (isfinite(measured->value)) return VSC_OK;
-  return vsc_fail(error, VSC_INPUT, "no node rests on the mid-wall line");
-}
-
-vsc_status vsc_measure_midline(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
-                               vsc_measured *measured, vsc_error *error)
-{
-  static const char *const names[3] = {"x_mm", "y_mm", "z_mm"};
-  vsc_signals *table;
-  const vsc_status status = open_reference(outcome, quantity, &table, measured, error);
-  if (status != VSC_OK || table == NULL) return status;
-  const double *s = vsc_signals_find(table, "s");
-  measured->value = -INFINITY;
-  for (size_t n = 0; n < outcome->mesh->node_count; n++) {
-    const double *x = outcome->mesh->nodes + 3 * n, *u = outcome->moved + 3 * n;
-    const double part = midline_part(x);
-    if (isnan(part) || part < 0.02) continue;
-    double apart = 0;
-    for (int a = 0; a < 3; a++) {
-      const double there = vsc_curve_at(table->rows, s, vsc_signals_find(table, names[a]), part);
-      apart += (x[a] + u[a] - there) * (x[a] + u[a] - there);
-    }
-    measured->value = fmax(measured->value, sqrt(apart));
-  }
-  vsc_signals_free(table);
-  if (isfinite(measured->value)) return VSC_OK;
-  return vsc_fail(error, VSC_INPUT, "no node rests on the mid-wall line");
 }
 
 // A column of the reference's component: NAME_u<x|y|z>_<what>_mm.
@@ -227,7 +219,7 @@ vsc_status vsc_measure_history(const vsc_outcome *outcome, const vsc_bench_quant
                                vsc_measured *measured, vsc_error *error)
 {
   vsc_signals *table;
-  vsc_status status = open_reference(outcome, quantity, &table, measured, error);
+  vsc_status status = vsc_open_reference(outcome, quantity, &table, measured, error);
   if (status != VSC_OK || table == NULL) return status;
   double *ours, *mean = NULL;
   const size_t rows = table->rows;
@@ -252,7 +244,7 @@ vsc_status vsc_measure_band(const vsc_outcome *outcome, const vsc_bench_quantity
                             vsc_measured *measured, vsc_error *error)
 {
   vsc_signals *table;
-  vsc_status status = open_reference(outcome, quantity, &table, measured, error);
+  vsc_status status = vsc_open_reference(outcome, quantity, &table, measured, error);
   if (status != VSC_OK || table == NULL) return status;
   double *ours;
   if (!VSC_NEW(ours, table->rows)) status = vsc_fail_memory(error, "a history");

@@ -59,6 +59,7 @@ vsc_status vsc_outcome_open(const char *folder, vsc_outcome *outcome, vsc_error 
 {
   char file[VSC_RESULT_PATH];
   snprintf(file, sizeof file, "%s/signals.csv", folder);
+  outcome->folder = folder;
   outcome->mesh = NULL;
   outcome->signals = NULL;
   vsc_status status = read_summary(folder, outcome, error);

@@ -9,6 +9,7 @@
 
 struct vsc_outcome {
   const vsc_bench_case *of;
+  const char *folder;     // of the results
   const char *reference;  // folder of reference curves; NULL: there is none
   vsc_mesh *mesh;         // of the last frame, at rest; owned
   const double *moved;    // node_count x 3: its displacement, mm

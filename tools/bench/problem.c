@@ -7,12 +7,12 @@
 
 // Stabilisation of tets with shared volumes is the scenes' own, the shear modulus; bricks need none.
 const vsc_bench_kind vsc_bench_kinds[] = {
-    {VSC_BENCH_PLAIN, "plain", "", {"mesh.order=1", "volume=element"}},
-    {VSC_BENCH_NODAL, "nodal", "", {"mesh.order=1", "volume=nodal"}},
-    {VSC_BENCH_SMOOTHED, "smoothed", "", {"mesh.order=1", "volume=nodal", "tets=smoothed"}},
+    {VSC_BENCH_PLAIN, "plain", "", {"mesh.order=1", "mesh.curved=[]", "volume=element"}},
+    {VSC_BENCH_NODAL, "nodal", "", {"mesh.order=1", "mesh.curved=[]", "volume=nodal"}},
+    {VSC_BENCH_SMOOTHED, "smoothed", "", {"mesh.order=1", "mesh.curved=[]", "volume=nodal", "tets=smoothed"}},
     {VSC_BENCH_QUADRATIC, "quadratic", "", {"mesh.order=2"}},
-    {VSC_BENCH_HEXES, "hexes", "--element=hex", {"mesh.order=1", "materials[0].stabilization=0 kPa"}},
-    {VSC_BENCH_WEDGES, "wedges", "--element=wedge", {"mesh.order=1", "materials[0].stabilization=0 kPa"}},
+    {VSC_BENCH_HEXES, "hexes", "--element=hex", {"mesh.order=1", "mesh.curved=[]", "materials[0].stabilization=0 kPa"}},
+    {VSC_BENCH_WEDGES, "wedges", "--element=wedge", {"mesh.order=1", "mesh.curved=[]", "materials[0].stabilization=0 kPa"}},
 };
 const size_t vsc_bench_kind_count = sizeof vsc_bench_kinds / sizeof vsc_bench_kinds[0];
 
@@ -21,7 +21,17 @@ const vsc_bench_problem *const vsc_bench_problems[] = {
     &vsc_bench_land_p2,
     &vsc_bench_land_p3,
     &vsc_bench_sagging_block,
+    &vsc_bench_lame_sphere,
+    &vsc_bench_lame_cylinder,
+    &vsc_bench_rubber_sphere,
+    &vsc_bench_rubber_cylinder,
     &vsc_bench_beam,
+    &vsc_bench_vibration,
+    &vsc_bench_beat,
+    &vsc_bench_arostica_0a,
+    &vsc_bench_arostica_0b,
+    &vsc_bench_arostica_1,
+    &vsc_bench_arostica_biventricle,
 };
 const size_t vsc_bench_problem_count = sizeof vsc_bench_problems / sizeof vsc_bench_problems[0];
 

@@ -14,6 +14,16 @@ extern const vsc_bench_problem vsc_bench_land_p3;  // a ventricle is inflated an
 
 // Closed forms and values on which independent programs agree.
 extern const vsc_bench_problem vsc_bench_sagging_block;  // a soft cube held at one face
-extern const vsc_bench_problem vsc_bench_beam;           // Timoshenko's, down to a Poisson ratio of 0.4999
+extern const vsc_bench_problem vsc_bench_lame_sphere, vsc_bench_lame_cylinder;      // at small strain
+extern const vsc_bench_problem vsc_bench_rubber_sphere, vsc_bench_rubber_cylinder;  // at large strain
+extern const vsc_bench_problem vsc_bench_beam;       // Timoshenko's, up to a Poisson ratio of 0.4999
+extern const vsc_bench_problem vsc_bench_vibration;  // a soft bar swings
+extern const vsc_bench_problem vsc_bench_beat;       // time steps of the shipped beat
+
+// Arostica et al. 2025, Comput. Methods Appl. Mech. Engrg. 435:117485.
+extern const vsc_bench_problem vsc_bench_arostica_0a;            // a ventricle contracts
+extern const vsc_bench_problem vsc_bench_arostica_0b;            // is filled, and snaps through
+extern const vsc_bench_problem vsc_bench_arostica_1;             // both
+extern const vsc_bench_problem vsc_bench_arostica_biventricle;   // two ventricles
 
 #endif

@@ -38,8 +38,30 @@ static double error_of(const vsc_bench_row *row)
   return row->failure[0] == '\0' && !row->skipped ? fabs(row->value - row->reference) : NAN;
 }
 
+// The order in the parameter of the row's variant and the two before it.
+static double order_of_steps(const vsc_bench_report *report, const vsc_bench_row *of)
+{
+  double h[3] = {0}, values[3] = {0};
+  int found = 0;
+  for (int k = 0; k < 3; k++) {
+    const vsc_bench_variant *variant = of->of.variant - (2 - k);
+    if (variant < of->of.problem->variants || variant->parameter == 0) return NAN;
+    h[k] = variant->parameter;
+    for (size_t r = 0; r < report->count; r++) {
+      const vsc_bench_row *row = &report->rows[r];
+      if (row->quantity != of->quantity || row->of.variant != variant || row->of.kind != of->of.kind ||
+          row->of.size != of->of.size || row->failure[0] != '\0')
+        continue;
+      values[k] = row->value;
+      found++;
+    }
+  }
+  return found == 3 ? vsc_own_order(h, values) : NAN;
+}
+
 double vsc_bench_order(const vsc_bench_report *report, const vsc_bench_row *of)
 {
+  if (isnan(of->reference)) return order_of_steps(report, of);
   enum { MOST = 32 };
   double h[MOST], errors[MOST];
   size_t count = 0;

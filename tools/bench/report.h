@@ -46,8 +46,10 @@ vsc_status vsc_bench_write_page(const vsc_bench_report *report, const char *fold
 
 void vsc_bench_report_free(vsc_bench_report *report);
 
-// Observed orders: rows [first, end) are one quantity on meshes of one kind, from coarse to fine. Their
-// error goes with the size of an element, elements^(-1/3), to this power (vsc_observed_order).
+// The observed order of the row's quantity, over all meshes of its kind and variant: the error goes with
+// the size of an element, elements^(-1/3), to this power (vsc_observed_order). Where there is no
+// reference, over its variant and the two before it, whose parameters are steps (vsc_own_order). NAN where
+// there is none.
 double vsc_bench_order(const vsc_bench_report *report, const vsc_bench_row *of);
 
 #endif

@@ -46,8 +46,10 @@ static void put_value(FILE *page, const vsc_bench_row *row)
   } else if (row->skipped) {
     fprintf(page, "<td>%s</td><td colspan=\"3\">no reference curve", row->quantity->name);
   } else {
-    fprintf(page, "<td>%s</td><td>%.6g %s</td><td>%.6g</td><td class=\"%s\">", row->quantity->name,
-            row->value, row->quantity->unit, row->reference, words[verdict]);
+    fprintf(page, "<td>%s</td><td>%.6g %s</td><td>", row->quantity->name, row->value,
+            row->quantity->unit);
+    if (!isnan(row->reference)) fprintf(page, "%.6g", row->reference);
+    fprintf(page, "</td><td class=\"%s\">", words[verdict]);
     if (row->reference != 0 && !isnan(row->reference))
       fprintf(page, "%+.3f %%", 100 * (row->value / row->reference - 1));
     fprintf(page, " %s", words[verdict]);

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Problems in time: a bar that swings, and the ventricles of Arostica et al. 2025 with the curves of its
+// ten programs.
+#include <math.h>
+
+#include "tools/bench/measures.h"
+#include "tools/bench/problems.h"
+
+static const vsc_bench_variant explicit_or_not[] = {
+    {"explicit", 0, {"solve=explicit"}},
+    {"implicit", 0, {"solve=implicit"}},
+};
+
+// ---- a soft bar of 10 mm x 10 mm x 100 mm, E = 10 kPa, nu = 0.3, swings at one end
+
+static const vsc_bench_size bars[] = {
+    {VSC_BENCH_ALL, "--cells=2,2,20"},
+    {VSC_BENCH_HEXES | VSC_BENCH_NODAL, "--cells=4,4,40"},
+};
+
+static const vsc_bench_quantity tones[] = {
+    // Timoshenko's beam with Cowper's shear; 0.5108 Hz by Euler and Bernoulli
+    {.name = "frequency", .unit = "Hz", .measure = vsc_measure_frequency, .column = "momentum_x",
+     .reference = 0.506874, .percent = 1, .held = VSC_BENCH_QUADRATIC | VSC_BENCH_HEXES},
+};
+
+const vsc_bench_problem vsc_bench_vibration = {
+    .name = "vibration", .title = "A soft bar swings: its lowest frequency",
+    .scene = "vibration.yaml", .shape = "block --size=10,10,100",
+    .variants = VSC_COUNTED(explicit_or_not), .sizes = VSC_COUNTED(bars),
+    .quantities = VSC_COUNTED(tones),
+};
+
+// ---- Arostica et al. 2025
+
+#define POINT(p, curves, most)                                                                        \
+  {.name = "distance of " p, .unit = "1", .measure = vsc_measure_history, .column = "point_" p "_u",   \
+   .file = curves, .file_column = p, .reference = 0, .within = most},                                  \
+  {.name = p " x in the band", .unit = "%", .measure = vsc_measure_band, .column = "point_" p "_u",    \
+   .file = curves, .file_column = p, .axis = 0, .reference = 100, .within = 5},                        \
+  {.name = p " y in the band", .unit = "%", .measure = vsc_measure_band, .column = "point_" p "_u",    \
+   .file = curves, .file_column = p, .axis = 1, .reference = 100, .within = 5},                        \
+  {.name = p " z in the band", .unit = "%", .measure = vsc_measure_band, .column = "point_" p "_u",    \
+   .file = curves, .file_column = p, .axis = 2, .reference = 100, .within = 5}
+
+// Of 2,160 and 10,080 tets.
+static const vsc_bench_size walls[] = {
+    {VSC_BENCH_NODAL | VSC_BENCH_SMOOTHED | VSC_BENCH_QUADRATIC | VSC_BENCH_HEXES,
+     "--around=16 --along=14 --layers=2"},
+    {VSC_BENCH_NODAL | VSC_BENCH_SMOOTHED | VSC_BENCH_HEXES, "--around=24 --along=26 --layers=3"},
+};
+
+static const vsc_bench_quantity contracts[] = {
+    POINT("p0", "arostica_mono_0A_stats.csv", 0.05), POINT("p1", "arostica_mono_0A_stats.csv", 0.05)};
+
+const vsc_bench_problem vsc_bench_arostica_0a = {
+    .name = "arostica_0a", .title = "Arostica 2025, case 0A: a ventricle contracts",
+    .scene = "arostica_0a.yaml", .shape = "lv --like=arostica",
+    .variants = VSC_COUNTED(explicit_or_not), .sizes = VSC_COUNTED(walls),
+    .quantities = VSC_COUNTED(contracts),
+};
+
+static const vsc_bench_quantity snaps[] = {
+    POINT("p0", "arostica_mono_0B_stats.csv", 0.15), POINT("p1", "arostica_mono_0B_stats.csv", 0.15)};
+
+const vsc_bench_problem vsc_bench_arostica_0b = {
+    .name = "arostica_0b", .title = "Arostica 2025, case 0B: a ventricle is filled and snaps through",
+    .scene = "arostica_0b.yaml", .shape = "lv --like=arostica",
+    .variants = VSC_COUNTED(explicit_or_not), .sizes = VSC_COUNTED(walls),
+    .quantities = VSC_COUNTED(snaps),
+};
+
+static const vsc_bench_quantity beats[] = {
+    POINT("p0", "arostica_mono_1_stats.csv", 0.05), POINT("p1", "arostica_mono_1_stats.csv", 0.05),
+    // 81.1 to 82.8 ml of five programs that agree
+    {.name = "smallest cavity", .unit = "ml", .measure = vsc_measure_least, .column = "cavity_endo",
+     .reference = 82, .within = 2}};
+
+const vsc_bench_problem vsc_bench_arostica_1 = {
+    .name = "arostica_1", .title = "Arostica 2025, case 1: a ventricle beats",
+    .scene = "arostica_1.yaml", .shape = "lv --like=arostica",
+    .variants = VSC_COUNTED(explicit_or_not), .sizes = VSC_COUNTED(walls),
+    .quantities = VSC_COUNTED(beats),
+};
+
+static const vsc_bench_size two_ventricles[] = {
+    {VSC_BENCH_NODAL | VSC_BENCH_SMOOTHED | VSC_BENCH_QUADRATIC, ""},
+};
+
+static const vsc_bench_quantity two_beat[] = {
+    POINT("p0", "arostica_biv_coarse_stats.csv", 0.15), POINT("p1", "arostica_biv_coarse_stats.csv", 0.15),
+    POINT("p2", "arostica_biv_coarse_stats.csv", 0.15)};
+
+const vsc_bench_problem vsc_bench_arostica_biventricle = {
+    .name = "arostica_biventricle", .title = "Arostica 2025, case 2: two ventricles beat",
+    .scene = "arostica_biventricle.yaml", .mesh = "biventricle_coarse.vtu",
+    .variants = VSC_COUNTED(explicit_or_not), .sizes = VSC_COUNTED(two_ventricles),
+    .quantities = VSC_COUNTED(two_beat),
+};
+
+// ---- order in time, and explicit against implicit, on the first half second of a beat
+
+static const vsc_bench_variant steps[] = {
+    {"explicit", 0, {"solve=explicit"}},
+    {"implicit", 0, {"solve=implicit"}},
+    {"explicit-0.016", 0.016, {"solve=explicit", "time.step=0.016 ms"}},
+    {"explicit-0.008", 0.008, {"solve=explicit", "time.step=0.008 ms"}},
+    {"explicit-0.004", 0.004, {"solve=explicit", "time.step=0.004 ms"}},
+    {"implicit-4", 4, {"solve=implicit", "time.step=4 ms"}},
+    {"implicit-2", 2, {"solve=implicit", "time.step=2 ms"}},
+    {"implicit-1", 1, {"solve=implicit", "time.step=1 ms"}},
+};
+
+static const vsc_bench_size small_hearts[] = {
+    {VSC_BENCH_NODAL, "--around=16 --along=7 --layers=2"},
+};
+
+static const vsc_bench_quantity strokes[] = {
+    {.name = "stroke", .unit = "ml", .measure = vsc_measure_stroke, .column = "cavity_endo",
+     .reference = NAN, .percent = 0.5},
+    {.name = "cavity at the end", .unit = "ml", .measure = vsc_measure_signal, .column = "cavity_endo",
+     .reference = NAN},
+};
+
+const vsc_bench_problem vsc_bench_beat = {
+    .name = "beat", .title = "Half a beat: order in time, explicit against implicit",
+    .scene = "../beat.yaml", .shape = "lv",
+    .settings = {"time.end=0.4 s", "output.frames=0.4 s"},
+    .variants = VSC_COUNTED(steps), .sizes = VSC_COUNTED(small_hearts),
+    .quantities = VSC_COUNTED(strokes),
+};
