@@ -264,10 +264,11 @@ static void points_are_read_and_written(void **state)
 {
   (void)state;
   vsc_error error = {.text = ""};
-  const char *const settings[] = {"output.points=[{name: p0, at: [25 mm, 3 cm, -0.1 mm]}]",
-                                  "output.points[1]={name: p1, at: [0 mm, 1 mm, 2 mm], reach: 20 um}"};
+  const char *const settings[] = {
+      "output.points=[{name: p0, at: [25 mm, 3 cm, -0.1 mm]}]", "output.points[1].name=p1",
+      "output.points[1].at=[0 mm, 1 mm, 2 mm]", "output.points[1].reach=20 um"};
   scratch_text("scene.yaml", minimal);
-  vsc_scene *scene = read_good("scene.yaml", settings, 2);
+  vsc_scene *scene = read_good("scene.yaml", settings, 4);
   assert_int_equal(vsc_scene_write(scene, scratch("resolved.yaml"), &error), VSC_OK);
   vsc_scene *again = read_good("resolved.yaml", NULL, 0);
   for (int k = 0; k < 2; k++) {

@@ -215,6 +215,8 @@ static void orders_of_runs(void **state)
   assert_holds(said, "order 2, extrapolated 100, run 3 uncertain by 0.938");  // 1.25 x 0.75, rounded
   // against the finest: (4 - 1/4)/(1 - 1/4) = 5 = 2^2.32
   assert_holds(said, " 2.32\n");
+  must("$V compare --order --signal cavity_lv --exact 100 r0 r1 r2");
+  assert_holds(said, "errors: 12 3 0.75; slope 2\n");
   must("$V compare --order --sizes 9,3,1 --signal step r0 r1 r2");
   assert_null(strstr(said, "cavity_lv"));
   assert_holds(said, "as given");
@@ -234,6 +236,7 @@ static void orders_that_are_none(void **state)
       {"s2 s1 s0", "from coarse to fine"},     {"s0 s1", "give 3 to"},
       {"--sizes 2,1 s0 s1 s2", "--sizes"},     {"--sizes 2,1,x s0 s1 s2", "as many sizes"},
       {"--signal none s0 s1 s2", "'none'"},    {"s0 s1 nowhere", "nowhere"},
+      {"--exact 1 s0 s1 s2", "the one --signal"}, {"--exact x s0 s1 s2", "a number"},
       {"--sizes 1,1,1 s0 s1 s2", "not below"}};
   for (size_t b = 0; b < sizeof bad / sizeof bad[0]; b++) {
     char command[128];

@@ -57,6 +57,7 @@ static void print_help(void)
       "smaller steps: observed order, extrapolated value, uncertainty; and the errors of the\n"
       "last frames against the finest run.\n"
       "      --signal NAME  a column of signals.csv, again for more [cavities and points]\n"
+      "      --exact X      what the one signal should be: errors and their slope too\n"
       "      --sizes H,H,H  sizes of the runs [(volume/elements)^(1/3) of their meshes; on one\n"
       "                     mesh their steps]\n\n"
       "--signals: columns of RUN (a folder or a signals.csv) against those of a table; the\n"
@@ -238,11 +239,11 @@ static int compare_fields(const wish *wish, char *const given[2])
   return code;
 }
 
-static bool read_number(const char *text, double *value)
+static bool read_number(const char *text, double least, double *value)
 {
   char *end;
   *value = strtod(text, &end);
-  return end != text && *end == '\0' && *value >= 0;
+  return end != text && *end == '\0' && *value >= least;
 }
 
 static bool read_sizes(const char *text, vsc_order_wish *order)
@@ -260,15 +261,17 @@ static bool read_sizes(const char *text, vsc_order_wish *order)
 }
 
 // Options without a letter of their own.
-enum { FRAMES = 256, REACH, INTERPOLATE, ORDERS, SIGNAL, SIZES, CURVES, COLUMN, WITHIN };
+enum { FRAMES = 256, REACH, INTERPOLATE, ORDERS, SIGNAL, SIZES, CURVES, COLUMN, WITHIN, EXACT };
 
 // Takes one option; false, with *expected, when its value does not fit.
 static bool take(int option, wish *wish, const char **expected)
 {
   *expected = "a number >= 0";
-  if (option == 't') return read_number(optarg, &wish->tolerance);
-  if (option == REACH) return read_number(optarg, &wish->reach);
-  if (option == WITHIN) return read_number(optarg, &wish->share);
+  if (option == 't') return read_number(optarg, 0, &wish->tolerance);
+  if (option == REACH) return read_number(optarg, 0, &wish->reach);
+  if (option == WITHIN) return read_number(optarg, 0, &wish->share);
+  *expected = "a number";
+  if (option == EXACT) return read_number(optarg, -INFINITY, &wish->order.exact);
   if (option == FRAMES) wish->frames = true;
   if (option == INTERPOLATE) wish->interpolate = true;
   if (option == ORDERS) wish->mode = ORDER;
@@ -294,6 +297,7 @@ static const struct option options[] = {{"help", no_argument, NULL, 'h'},
                                         {"order", no_argument, NULL, ORDERS},
                                         {"signal", required_argument, NULL, SIGNAL},
                                         {"sizes", required_argument, NULL, SIZES},
+                                        {"exact", required_argument, NULL, EXACT},
                                         {"signals", no_argument, NULL, CURVES},
                                         {"column", required_argument, NULL, COLUMN},
                                         {"within", required_argument, NULL, WITHIN},
@@ -306,6 +310,10 @@ static int compare(wish *wish, int count, char **given)
     if (count < 3 || count > VSC_MOST_RUNS || (order->size_count > 0 && order->size_count != (size_t)count)) {
       fprintf(stderr, "viscera: compare: --order: give 3 to %d runs, and as many --sizes if any\n",
               VSC_MOST_RUNS);
+      return VSC_INPUT;
+    }
+    if (!isnan(order->exact) && order->signal_count != 1) {
+      fputs("viscera: compare: --exact: give the one --signal that it is for\n", stderr);
       return VSC_INPUT;
     }
     order->reach = wish->reach;
@@ -327,7 +335,7 @@ static int compare(wish *wish, int count, char **given)
 int vsc_verb_compare(int argc, char **argv)
 {
   static wish wish;
-  wish = (struct wish){.tolerance = INFINITY};
+  wish = (struct wish){.tolerance = INFINITY, .order.exact = NAN};
   for (int option, index = 0; (option = getopt_long(argc, argv, "ht:", options, &index)) != -1;) {
     const char *expected;
     if (option == 'h') {

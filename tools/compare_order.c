@@ -95,6 +95,25 @@ static void print_runs(const vsc_order_wish *wish, const series *s)
                                                      : "as given");
 }
 
+// The orders of each three runs of a signal, and of its errors.
+static void print_orders(const vsc_order_wish *wish, const series *s, const double *f)
+{
+  double e[VSC_MOST_RUNS];
+  for (size_t k = 2; k < s->count; k++) {
+    const vsc_order o = vsc_order_of(s->size + k - 2, f + k - 2);
+    printf("runs %zu %zu %zu: ", k - 1, k, k + 1);
+    if (o.trend == VSC_TREND_CONVERGES)
+      printf("order %.4g, extrapolated %.10g, run %zu uncertain by %.3g\n", o.order, o.limit, k + 1,
+             o.uncertainty);
+    else
+      printf("%s\n", vsc_trend_text(o.trend));
+  }
+  if (isnan(wish->exact)) return;
+  printf("errors:");
+  for (size_t k = 0; k < s->count; k++) printf(" %.6g", e[k] = fabs(f[k] - wish->exact));
+  printf("; slope %.4g\n", vsc_order_slope(s->count, s->size, e));
+}
+
 static vsc_status print_signal(const vsc_order_wish *wish, const series *s, const char *name,
                                vsc_error *error)
 {
@@ -111,15 +130,7 @@ static vsc_status print_signal(const vsc_order_wish *wish, const series *s, cons
     if (k > 0) printf(" %13.6g", f[k] - f[k - 1]);
     putchar('\n');
   }
-  for (size_t k = 2; k < s->count; k++) {
-    const vsc_order o = vsc_order_of(s->size + k - 2, f + k - 2);
-    printf("runs %zu %zu %zu: ", k - 1, k, k + 1);
-    if (o.trend == VSC_TREND_CONVERGES)
-      printf("order %.4g, extrapolated %.10g, run %zu uncertain by %.3g\n", o.order, o.limit, k + 1,
-             o.uncertainty);
-    else
-      printf("%s\n", vsc_trend_text(o.trend));
-  }
+  print_orders(wish, s, f);
   return VSC_OK;
 }
 

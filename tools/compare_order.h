@@ -17,11 +17,13 @@ typedef struct vsc_order_wish {
                                     // meshes, or their steps where the meshes are all the same
   size_t signal_count;
   char signals[VSC_MOST_WANTED][VSC_NAME];  // columns of signals.csv; none: cavities and points
+  double exact;                             // what the one signal should be; NAN: not known
   double reach;                             // as of vsc_pair
 } vsc_order_wish;
 
 // What `viscera compare --order` does: for each signal the last row of each run, the order by
-// vsc_order_of of each three runs that follow one another, the extrapolated value and the uncertainty;
+// vsc_order_of of each three runs that follow one another, the extrapolated value and the uncertainty, and
+// the slope of the errors where the exact value is known;
 // then for each array of the last frames the RMS by volume of the runs' differences from the
 // finest, and their slope over the sizes (vsc_order_slope). Returns the exit code.
 int vsc_compare_order(const vsc_order_wish *wish);
