@@ -154,7 +154,7 @@ static void tangents_have_the_loads_in_them(void **state)
   body.definition.robin_count = 1;
   body.definition.robins = &robin;
   body_build(&body);
-  check_by_positions(&body);
+  check_by_positions(&body, 2e-9);
   check_by_velocities(&body);
   body_close(&body);
 }
