@@ -5,6 +5,7 @@
 
 #include "base/vec3.h"
 #include "kinds_body.h"
+#include "tissue_laws.h"
 
 // A law on a mesh, and which of the properties it has.
 typedef struct variant {
@@ -13,34 +14,49 @@ typedef struct variant {
   vsc_law law;
   vsc_volume_kind volume;
   bool gradient, balanced_forces, balanced_moments;
+  int tissue;  // 1 + the number of a tissue law, all in viscous material; 0: none
   vsc_tets_kind tets;
 } variant;
+
+#define TISSUE(k, mesh, volume) \
+  {"tissue law " #k, mesh, VSC_LAW_SPRINGS, volume, true, true, true, 1 + k, VSC_TETS_PLAIN}
 
 // The paper's angular forces have no potential and turn the element; its radial forces, and the
 // springs to the barycentre, which pull at the corner only, push it.
 static const variant variants[] = {
-    {"hexahedra", ALL_HEXES, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true, VSC_TETS_PLAIN},
-    {"all kinds, nodes share", ALL_KINDS, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true,
-     VSC_TETS_PLAIN},
-    {"all kinds, elements alone", ALL_KINDS, VSC_LAW_SPRINGS, VSC_VOLUME_ELEMENT, true, true, true,
-     VSC_TETS_PLAIN},
-    {"tets", ALL_TETS, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true, VSC_TETS_PLAIN},
-    {"quadratic tets", ALL_TETS10, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true,
-     VSC_TETS_PLAIN},
-    {"quadratic tets alone", ALL_TETS10, VSC_LAW_SPRINGS, VSC_VOLUME_ELEMENT, true, true, true,
-     VSC_TETS_PLAIN},
-    {"smoothed tets", ALL_TETS, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true, VSC_TETS_SMOOTHED},
-    {"smoothed, all kinds", ALL_KINDS, VSC_LAW_SPRINGS, VSC_VOLUME_ELEMENT, true, true, true,
+    {"hexahedra", ALL_HEXES, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true, 0, VSC_TETS_PLAIN},
+    {"all kinds, nodes share", ALL_KINDS, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true, 0, VSC_TETS_PLAIN},
+    {"all kinds, elements alone", ALL_KINDS, VSC_LAW_SPRINGS, VSC_VOLUME_ELEMENT, true, true, true, 0, VSC_TETS_PLAIN},
+    {"tets", ALL_TETS, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true, 0, VSC_TETS_PLAIN},
+    {"quadratic tets", ALL_TETS10, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true, 0, VSC_TETS_PLAIN},
+    {"quadratic tets alone", ALL_TETS10, VSC_LAW_SPRINGS, VSC_VOLUME_ELEMENT, true, true, true, 0, VSC_TETS_PLAIN},
+    {"smoothed tets", ALL_TETS, VSC_LAW_SPRINGS, VSC_VOLUME_NODAL, true, true, true, 0,
      VSC_TETS_SMOOTHED},
-    {"paper tets", ALL_TETS, VSC_LAW_PAPER, VSC_VOLUME_NODAL, false, false, false, VSC_TETS_PLAIN},
-    {"paper hexahedra", ALL_HEXES, VSC_LAW_PAPER, VSC_VOLUME_NODAL, false, false, false,
-     VSC_TETS_PLAIN},
-    {"classical tets", ALL_TETS, VSC_LAW_CLASSICAL, VSC_VOLUME_NODAL, true, true, true,
-     VSC_TETS_PLAIN},
-    {"classical hexahedra", ALL_HEXES, VSC_LAW_CLASSICAL, VSC_VOLUME_NODAL, true, true, true,
-     VSC_TETS_PLAIN},
-    {"classical, all kinds", ALL_KINDS, VSC_LAW_CLASSICAL, VSC_VOLUME_NODAL, true, true, true,
-     VSC_TETS_PLAIN},
+    {"smoothed, all kinds", ALL_KINDS, VSC_LAW_SPRINGS, VSC_VOLUME_ELEMENT, true, true, true, 0,
+     VSC_TETS_SMOOTHED},
+    {"paper tets", ALL_TETS, VSC_LAW_PAPER, VSC_VOLUME_NODAL, false, false, false, 0, VSC_TETS_PLAIN},
+    {"paper hexahedra", ALL_HEXES, VSC_LAW_PAPER, VSC_VOLUME_NODAL, false, false, false, 0, VSC_TETS_PLAIN},
+    {"classical tets", ALL_TETS, VSC_LAW_CLASSICAL, VSC_VOLUME_NODAL, true, true, true, 0, VSC_TETS_PLAIN},
+    {"classical hexahedra", ALL_HEXES, VSC_LAW_CLASSICAL, VSC_VOLUME_NODAL, true, true, true, 0, VSC_TETS_PLAIN},
+    {"classical, all kinds", ALL_KINDS, VSC_LAW_CLASSICAL, VSC_VOLUME_NODAL, true, true, true, 0, VSC_TETS_PLAIN},
+    TISSUE(0, ALL_KINDS, VSC_VOLUME_NODAL),
+    TISSUE(1, ALL_KINDS, VSC_VOLUME_ELEMENT),
+    TISSUE(2, ALL_KINDS, VSC_VOLUME_NODAL),
+    TISSUE(3, ALL_KINDS, VSC_VOLUME_NODAL),
+    TISSUE(4, ALL_KINDS, VSC_VOLUME_ELEMENT),
+    TISSUE(5, ALL_KINDS, VSC_VOLUME_NODAL),
+    TISSUE(6, ALL_KINDS, VSC_VOLUME_ELEMENT),
+    TISSUE(7, ALL_KINDS, VSC_VOLUME_NODAL),
+    TISSUE(8, ALL_KINDS, VSC_VOLUME_NODAL),
+    TISSUE(9, ALL_KINDS, VSC_VOLUME_NODAL),
+    TISSUE(10, ALL_KINDS, VSC_VOLUME_NODAL),
+    TISSUE(11, ALL_KINDS, VSC_VOLUME_NODAL),
+    TISSUE(12, ALL_KINDS, VSC_VOLUME_ELEMENT),
+    TISSUE(13, ALL_KINDS, VSC_VOLUME_NODAL),
+    TISSUE(0, ALL_TETS10, VSC_VOLUME_NODAL),
+    TISSUE(3, ALL_TETS10, VSC_VOLUME_NODAL),
+    TISSUE(4, ALL_TETS10, VSC_VOLUME_NODAL),
+    TISSUE(12, ALL_TETS10, VSC_VOLUME_NODAL),
 };
 enum { VARIANTS = sizeof variants / sizeof variants[0] };
 
@@ -50,7 +66,11 @@ static void open_variant(random_body *body, const variant *v, size_t n, uint64_t
   static vsc_pair_def pairs[2];
   const vsc_material_def materials[] = {springs_material(axes, pairs), paper_material(),
                                         classical_material()};
-  kinds_open_tets(body, mesh_of(v->mesh, n, seed), &materials[v->law], v->volume, v->tets, seed + 1);
+  vsc_material_def material = v->tissue > 0 ? tissue_law(v->tissue - 1) : materials[v->law];
+  if (v->tissue > 0) material.viscosity = 0.4;
+  // the kink of a sharp switch would hide the order of differences
+  if (material.compression == VSC_FIBRES_SHARP) material.compression = VSC_FIBRES_ALWAYS;
+  kinds_open_tets(body, mesh_of(v->mesh, n, seed), &material, v->volume, v->tets, seed + 1);
 }
 
 // |(E(x + h d) - E(x - h d))/2h + f . d| falls as h^2.
@@ -65,7 +85,7 @@ static void check_gradient(random_body *body, const char *name)
   for (int k = 0; k < DIRECTIONS; k++) {
     double *d = random_array(count, 1, 22 + (uint64_t)k);
     for (int s = 0; s < STEPS; s++) {
-      const double h = ldexp(1, -6 - s);
+      const double h = ldexp(1, -8 - s);
       double energy[2];
       for (int side = 0; side < 2; side++) {
         for (size_t i = 0; i < count; i++) moved[i] = x[i] + (side ? -h : h) * d[i];

@@ -24,7 +24,7 @@ void vsc_rest_tangent(const vsc_model *model, const vsc_material *material, doub
 
 double vsc_material_shear(const vsc_model *model, const vsc_material *material)
 {
-  double D[36], most = 0;
+  double D[36], most = -INFINITY;  // what is left after m may be negative
   if (!vsc_law_is_of_strain(material->law)) return 0;
   vsc_rest_tangent(model, material, D);
   for (int a = 0; a < 3; a++) {
@@ -37,7 +37,7 @@ double vsc_material_shear(const vsc_model *model, const vsc_material *material)
 
 double vsc_material_stiffest(const vsc_model *model, const vsc_material *material)
 {
-  double D[36], eigenvalues[6], most = 0;
+  double D[36], eigenvalues[6], most = -INFINITY;
   vsc_rest_tangent(model, material, D);
   // a shear of E_ab counts twice in |E|^2
   for (int k = 0; k < 6; k++)
