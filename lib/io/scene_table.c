@@ -67,6 +67,8 @@ static const vsc_row solver_rows[] = {
      .meaning = "implicit, time.step auto: error of a step, part of the body's size"},
     {"linear", CHOICE(vsc_definition, solve.linear, linear_kinds), .text = "auto",
      .meaning = "systems: auto, direct (a factor, reused), iterative (little memory)"},
+    {"incompressible", NUMBER(vsc_definition, solve.incompressible), .text = "0",
+     .meaning = "equilibrium: largest |J - 1| of shared volumes, by multipliers; 0: as K has it"},
     {"tolerance", NUMBER(vsc_definition, solve.tolerance), .text = "1e-6",
      .meaning = "of the residual, as a part of the forces at work"},
 };

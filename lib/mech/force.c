@@ -69,6 +69,9 @@ static void gather_pressures(const evaluation *e, const vsc_patch *patch, double
     }
     const vsc_wide p = vsc_volume_stress(K, J);
     for (size_t l = 0; l < VSC_WIDTH && n + l < count; l++) pressure[n + l] = p[l];
+    const double *multiplier = e->scratch->node_multiplier;
+    for (size_t l = 0; multiplier != NULL && l < VSC_WIDTH && n + l < count; l++)
+      pressure[n + l] += multiplier[vsc_node_of(model, patch, (uint32_t)(n + l))];
   }
 }
 
@@ -174,6 +177,9 @@ static vsc_patch_work prepare(const evaluation *e, const vsc_patch *patch, const
       .pressure = local->pressure,
       .activation = local->activation,
       .activation_stride = stride,
+      .multipliers = e->scratch->pack_multiplier != NULL
+                         ? (const vsc_wide *)e->scratch->pack_multiplier + patch->first_pack
+                         : NULL,
       .shares_volume = choice->nodal_volume};
 }
 

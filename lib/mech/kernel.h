@@ -26,6 +26,7 @@ typedef struct vsc_patch_work {
   const vsc_wide
       *activation;  // of each pack, or of all when activation_stride is 0; used when active
   size_t activation_stride;
+  const vsc_wide *multipliers;  // of each pack: added to what its frames share, kPa; or NULL
   bool shares_volume;  // whether the pressures of nodes count
   double stiffness_factor, damping_factor;  // of -df/dx and of -df/dw, what goes into tangents
   const double *before;  // positions of the iterate before, which foretells stresses; or NULL

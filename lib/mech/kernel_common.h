@@ -46,6 +46,12 @@ VSC_INLINE vsc_wide cofactor_of(const vsc_wide3 g[3], vsc_wide3 cofactor[3])
   return vsc_wide_dot(g[0], cofactor[0]);
 }
 
+// What is added to the pressure that the frames of a pack share.
+VSC_INLINE vsc_wide multiplier_of(const vsc_patch_work *work, size_t k)
+{
+  return work->multipliers != NULL ? work->multipliers[k] : vsc_splat(0);
+}
+
 VSC_INLINE vsc_mixture moduli_of(const vsc_patch_work *work, size_t k, bool composed)
 {
   return vsc_moduli_or(work->material,

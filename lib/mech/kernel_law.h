@@ -72,7 +72,8 @@ VSC_INLINE void law_kernel(const vsc_patch_work *work, int corners, int points, 
       derivatives(work->rule, corners, points, x, speed);
     }
     const vsc_wide pressure =
-        common_pressure(work, frames, node, corners, points, &in.moduli, h, g);
+        common_pressure(work, frames, node, corners, points, &in.moduli, h, g) +
+        multiplier_of(work, k);
     const vsc_wide own = corners == 4 ? in.moduli.element_modulus : in.moduli.stabilization;
     for (int q = 0; q < points; q++) {
       vsc_wide3 rate[3], P[3];

@@ -187,7 +187,8 @@ VSC_INLINE void solid_kernel(const vsc_patch_work *work, int corners, int points
       for (int c = 0; c < corners; c++) x[c] = gather_corner(node[c], work->w);
       derivatives(work->rule, corners, points, x, speed);
     }
-    const vsc_wide pressure = shared_pressure(frames, points, moduli.volume_modulus, h, g);
+    const vsc_wide pressure =
+        shared_pressure(frames, points, moduli.volume_modulus, h, g) + multiplier_of(work, k);
     for (int q = 0; q < points; q++) {
       const vsc_frame *frame = &frames[q];
       vsc_wide3 rate[3], P[3];

@@ -242,6 +242,7 @@ VSC_INLINE void tangent_kernel(const vsc_patch_work *work, size_t k, int corners
                                                 in.moduli.volume_modulus, g, former);
     if (corners != 4) shared.pressure = foretold;
   }
+  shared.pressure += multiplier_of(work, k);
   // a tet's own volume modulus, or that of each frame beside the shared volume
   const vsc_wide own = corners == 4 ? in.moduli.element_modulus : in.moduli.stabilization;
   for (int i = 0; i < 9 * corners * (corners + 1) / 2; i++) K[i] = vsc_splat(0);

@@ -44,11 +44,18 @@ static bool allocate(const vsc_model *model, vsc_state *state)
          VSC_NEW(state->former_v, remembers ? 4 * n : 0);
 }
 
+static bool allocate_multipliers(const vsc_model *model, vsc_scratch *scratch)
+{
+  if (!(model->solve.incompressible > 0)) return true;
+  return VSC_NEW(scratch->node_multiplier, model->node_count) &&
+         VSC_NEW(scratch->pack_multiplier, VSC_WIDTH * model->pack_count);
+}
+
 vsc_status vsc_state_create(const vsc_model *model, vsc_state **state, vsc_error *error)
 {
   *state = NULL;
   vsc_state *made;
-  if (!VSC_NEW(made, 1) || !allocate(model, made)) {
+  if (!VSC_NEW(made, 1) || !allocate(model, made) || !allocate_multipliers(model, &made->scratch)) {
     vsc_state_free(made);
     return vsc_fail_memory(error, "the state of the simulation");
   }
@@ -85,6 +92,8 @@ void vsc_state_free(vsc_state *state)
   vsc_free(state->scratch.edge_stress);
   vsc_free(state->scratch.predicted);
   vsc_free(state->scratch.trial);
+  vsc_free(state->scratch.node_multiplier);
+  vsc_free(state->scratch.pack_multiplier);
   vsc_free(state);
 }
 

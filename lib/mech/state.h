@@ -33,6 +33,10 @@ typedef struct vsc_scratch {
   // smoothed tets: F of each slot, [slot][column][4], dF/dt (with damping), and P_e of each edge likewise, kPa
   double *gradient, *rate, *edge_stress;
   double *predicted;       // node_count x 4: velocity at the end of the step, when there is damping
+  double *node_multiplier;  // node_count: added to the pressure of each node's group, kPa; NULL but with
+                            // solve.incompressible
+  double *pack_multiplier;  // pack_count x 4: the same of each element that shares its volume among its
+                            // frames
   double *trial;  // node_count x 4 x 3: positions, velocities and forces of the step estimate
 } vsc_scratch;
 

@@ -326,6 +326,8 @@ typedef struct vsc_solve_def {
   double accuracy;   // IMPLICIT without a given step: error of a step as a part of the body's size;
                      // default 1e-5
   double tolerance;  // of the residual, as a part of the forces at work; default 1e-6
+  double incompressible;  // EQUILIBRIUM by Newton: largest |J - 1| of shared volumes, by multipliers; 0: as K
+                          // has it (default)
 } vsc_solve_def;
 
 typedef struct vsc_definition {

@@ -491,6 +491,13 @@ vsc_status vsc_definition_check(const vsc_definition *d, vsc_error *error)
        "give a number from 0 to 1");
   need(&c, d->solve.accuracy > 0 && d->solve.accuracy < 0.1, "solver.accuracy", d->solve.accuracy, "",
        "give a part of the body's size above 0 and below 0.1; 1e-5 is usual");
+  need(&c, d->solve.incompressible >= 0 && d->solve.incompressible < 0.1, "solver.incompressible",
+       d->solve.incompressible, "", "give a part of the volume below 0.1, or 0");
+  need(&c,
+       d->solve.incompressible == 0 ||
+           (d->solve.kind == VSC_SOLVE_EQUILIBRIUM && d->solve.method == VSC_STATICS_NEWTON),
+       "solver.incompressible", d->solve.incompressible, "",
+       "it needs solve: equilibrium and solver.method: newton");
   need(&c, d->solve.tolerance > 0 && d->solve.tolerance < 0.1, "solver.tolerance", d->solve.tolerance, "",
        "give a part of the forces above 0 and below 0.1; 1e-6 is usual");
   return c.status;

@@ -6,7 +6,7 @@
 #include "run/job.h"
 
 // Scalars of a checkpoint, in the order of list_scalars.
-enum { CLOCK = 0, LIMIT = 2, WORKS = 8, WATCH = 13, SCALARS = 18, BLOCKS = 17 };
+enum { CLOCK = 0, LIMIT = 2, WORKS = 8, WATCH = 13, SCALARS = 18, BLOCKS = 19 };
 
 static void list_scalars(vsc_job *job, double *places[SCALARS])
 {
@@ -55,6 +55,12 @@ static size_t former_nodes(const vsc_job *job)
   return remembers ? model->node_count : 0;
 }
 
+// `count` where equilibria have multipliers.
+static size_t multipliers(const vsc_job *job, size_t count)
+{
+  return job->problem->model->solve.incompressible > 0 ? count : 0;
+}
+
 static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[BLOCKS])
 {
   vsc_state *state = job->state;
@@ -69,6 +75,10 @@ static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[
       {"middle_velocity", "mm/ms", contact_nodes(job), 4, state->former},
       {"contact_impulse", "mN ms", contact_nodes(job), 4, state->pending},
       {"contact_normal", "1", contact_nodes(job), 4, state->contact_normal},
+      {"node_multipliers", "kPa", multipliers(job, job->problem->model->node_count), 1,
+       state->scratch.node_multiplier},
+      {"element_multipliers", "kPa", multipliers(job, job->problem->model->pack_count), VSC_WIDTH,
+       state->scratch.pack_multiplier},
       {"former_position", "mm", former_nodes(job), 4, state->former_x},
       {"former_velocity", "mm/ms", former_nodes(job), 4, state->former_v},
       {"former_step", "ms", former_nodes(job) > 0, 1, &state->former_step},

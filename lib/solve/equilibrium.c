@@ -7,6 +7,7 @@
 
 #include "base/mem.h"
 #include "mech/force.h"
+#include "solve/incompressible.h"
 
 #define LONGER 1.6    // after an increment of at most QUICK iterations
 #define SHORTER 0.4   // after one that failed
@@ -46,6 +47,27 @@ vsc_status vsc_equilibrium_start(const vsc_model *model, vsc_state *state, vsc_e
   return VSC_OK;
 }
 
+// The equilibrium from x; with solve.incompressible again and again, until no volume is off.
+static vsc_status settle(vsc_newton *newton, statics *s, double *x, int *iterations, vsc_error *error)
+{
+  const double tolerance = s->model->solve.incompressible;
+  const vsc_balance balance = {s, residual, assemble};
+  double off = 0;
+  for (int round = 0; round < VSC_MOST_ROUNDS; round++) {
+    int more;
+    const vsc_status status =
+        vsc_newton_solve(newton, &balance, s->time, s->state->scratch.load, x, &more, error);
+    *iterations = round == 0 ? more : *iterations;
+    if (status != VSC_OK || !(tolerance > 0)) return status;
+    off = vsc_multipliers_update(s->model, x, &s->state->scratch);
+    if (off <= tolerance) return VSC_OK;
+  }
+  return vsc_fail(error, VSC_NUMERICAL,
+                  "at %.6g ms a volume is still off by %.3g of itself after %d rounds of multipliers, not "
+                  "below %.3g; take a larger volume_modulus or solver.incompressible",
+                  s->time, off, VSC_MOST_ROUNDS, tolerance);
+}
+
 // Where the last increment's velocity leads in dt, unless that turns an element inside out; supports that
 // move are where they have to be. False when they turn one inside out.
 static bool guess(const vsc_model *model, vsc_state *state, double dt, double time, double *x)
@@ -73,12 +95,11 @@ vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double u
   while (done < 1) {
     const double next = done + increment > 1 - SHORTEST ? 1 : done + increment;
     statics s = {model, state, start + next * way};
-    const vsc_balance balance = {&s, residual, assemble};
     state->scratch.load = load0 + next * (1 - load0);
-    int iterations;
+    int iterations = 0;
     vsc_status status =
         guess(model, state, (next - done) * way, s.time, x)
-            ? vsc_newton_solve(newton, &balance, s.time, state->scratch.load, x, &iterations, error)
+            ? settle(newton, &s, x, &iterations, error)
             : vsc_fail(error, VSC_NUMERICAL,
                        "at %.6g ms no equilibrium was found: a support moves so far that elements turn "
                        "inside out",
