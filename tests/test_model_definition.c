@@ -93,10 +93,10 @@ static void a_good_definition_passes(void **state)
 
 typedef void spoil(vsc_definition *d);
 
-#define SPOIL(name, statement) \
+#define SPOIL(name, ...) \
   static void name(vsc_definition *d) \
   { \
-    statement; \
+    __VA_ARGS__; \
   }
 SPOIL(no_material, d->material_count = 0)
 SPOIL(axial, d->materials[1].axial[2] = -5)
@@ -108,6 +108,26 @@ SPOIL(no_volume, d->materials[1].volume_modulus = 0)
 SPOIL(huge_volume, d->materials[1].volume_modulus = INFINITY)
 SPOIL(stabilization, d->materials[0].stabilization = -1)
 SPOIL(tension, d->materials[0].active.tension = -60)
+SPOIL(length_factor, d->materials[0].active.length_factor = NAN)
+SPOIL(sheet_fraction, d->materials[0].active.sheet_fraction = -0.1)
+SPOIL(viscosity, d->materials[0].viscosity = -1)
+SPOIL(coupling, d->materials[0].coupling[0] = -1100)
+SPOIL(coupling_nan, d->materials[0].coupling[2] = NAN)
+SPOIL(neo_hookean, d->materials[1].law = VSC_LAW_NEO_HOOKEAN)
+SPOIL(guccione, d->materials[1].law = VSC_LAW_GUCCIONE;
+      d->materials[1].guccione = (vsc_guccione_def){2, 8, -2, 4})
+SPOIL(fung, d->materials[1].law = VSC_LAW_FUNG;
+      d->materials[1].fung = (vsc_fung_def){1, {1, 1, 1, 1, 0, 1}})
+SPOIL(dispersion, d->materials[1].law = VSC_LAW_HOLZAPFEL_OGDEN;
+      d->materials[1].holzapfel_ogden = (vsc_holzapfel_ogden_def){.a = 1, .b = 1, .kappa_f = 0.4})
+SPOIL(fibre_exponent, d->materials[1].law = VSC_LAW_HOLZAPFEL_OGDEN;
+      d->materials[1].holzapfel_ogden = (vsc_holzapfel_ogden_def){.a = 1, .b = 1, .a_f = 1})
+SPOIL(rivlin, d->materials[1].law = VSC_LAW_MOONEY_RIVLIN;
+      d->materials[1].mooney_rivlin = (vsc_invariants_def){1, -0.5})
+SPOIL(westmann, d->materials[1].law = VSC_LAW_VERONDA_WESTMANN;
+      d->materials[1].veronda_westmann = (vsc_invariants_def){1, 0})
+SPOIL(active_tissue, d->materials[0].law = VSC_LAW_NEO_HOOKEAN; d->materials[0].shear = 1;
+      d->materials[0].active.kind = VSC_ACTIVE_SPRING)
 SPOIL(rest_stretch, d->materials[1].active.kind = VSC_ACTIVE_SPRING;
       d->materials[1].active.rest_stretch = 0)
 SPOIL(stiffness, d->materials[1].active.kind = VSC_ACTIVE_SPRING;
@@ -187,6 +207,19 @@ static void every_rule_names_its_key(void **state)
       {huge_volume, "materials[1].volume_modulus: ", "above zero"},
       {stabilization, "materials[0].stabilization: ", "zero or more"},
       {tension, "materials[0].active.tension: -60 kPa: ", "zero or more"},
+      {length_factor, "materials[0].active.length_factor: ", "finite"},
+      {sheet_fraction, "materials[0].active.sheet_fraction: -0.1: ", "zero or more"},
+      {viscosity, "materials[0].viscosity: -1 kPa ms: ", "zero or more"},
+      {coupling, "materials[0].coupling.fs: -1100 kPa: ", "smaller couplings"},
+      {coupling_nan, "materials[0].coupling.nf: ", "finite"},
+      {neo_hookean, "materials[1].neo_hookean.shear: 0 kPa: ", "above zero"},
+      {guccione, "materials[1].guccione.bt: -2: ", "above zero"},
+      {fung, "materials[1].fung.bsn: 0: ", "above zero"},
+      {dispersion, "materials[1].holzapfel_ogden.kappa_f: 0.4: ", "1/3"},
+      {fibre_exponent, "materials[1].holzapfel_ogden.bf: 0: ", "above zero"},
+      {rivlin, "materials[1].mooney_rivlin.c2: -0.5 kPa: ", "zero or more"},
+      {westmann, "materials[1].veronda_westmann.c2: 0: ", "above zero"},
+      {active_tissue, "materials[0].active.kind: ", "kind: tension"},
       {rest_stretch, "materials[1].active.rest_stretch: 0: ", "up to 1"},
       {stiffness, "materials[1].active.stiffness: ", "zero or more"},
       {delay, "materials[0].active.delay: ", "finite"},
