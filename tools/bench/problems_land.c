@@ -71,8 +71,9 @@ static const vsc_bench_quantity contracted[] = {
      .reference = -12.347, .within = 0.7, .held = VSC_BENCH_QUADRATIC},
     {.name = "z of the apex outside", .unit = "mm", .measure = vsc_measure_place, .at = {0, 0, -20},
      .axis = 2, .reference = -15.452, .within = 0.25, .held = VSC_BENCH_QUADRATIC},
+    // a volume modulus of 1 MPa takes 1.3 % from it, 10 MPa 0.12 %
     {.name = "cavity", .unit = "ml", .measure = vsc_measure_signal, .column = "cavity_endo",
-     .reference = 1.7959, .percent = 1, .held = VSC_BENCH_QUADRATIC},
+     .reference = 1.7959, .percent = 2, .held = VSC_BENCH_QUADRATIC},
     {.name = "largest y of the mid-wall line", .unit = "mm", .measure = vsc_measure_midline_peak,
      .reference = 1.510, .percent = 5, .held = VSC_BENCH_QUADRATIC},
     {.name = "distance of the mid-wall line", .unit = "mm", .measure = vsc_measure_midline,
