@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "tools/bench/curves.h"
 #include "tools/results.h"
 
 enum { DIFFERENT = 1 };
@@ -71,14 +72,7 @@ static bool value_at(const columns *c, double time, double *value)
   const double rounding = SAME_TIME * fabs(time);
   if (c->rows == 0 || time < c->time[0] - rounding || time > c->time[c->rows - 1] + rounding)
     return false;
-  size_t row = 1;
-  while (row < c->rows && c->time[row] < time) row++;
-  if (row == c->rows) {
-    *value = c->value[row - 1];
-    return true;
-  }
-  const double part = (time - c->time[row - 1]) / (c->time[row] - c->time[row - 1]);
-  *value = c->value[row - 1] + fmax(0, part) * (c->value[row] - c->value[row - 1]);
+  *value = vsc_curve_at(c->rows, c->time, c->value, time);
   return true;
 }
 
