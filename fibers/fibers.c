@@ -101,17 +101,20 @@ static void interpolate(const vsc_mesh *mesh, size_t element, const double *N, c
   }
 }
 
-// Fibres from vectors on the nodes of quadratic tets, at each of their points.
+// Fibres from vectors on the nodes: at each point of quadratic tets, the mean of other elements.
 static void from_nodes(const vsc_mesh *mesh, const double *fibers, const double *sheets,
                        vsc_axes *axes, vsc_fiber_report *report)
 {
   const vsc_cell_rule rule = vsc_cell_rule_of(VSC_TET10);
+  double ones[VSC_MOST_CORNERS];
+  for (int i = 0; i < VSC_MOST_CORNERS; i++) ones[i] = 1;
   for (size_t e = 0; e < mesh->element_count; e++) {
     int known = 1;
     for (int q = 0; q < axes->points; q++) {
+      const double *N = axes->points > 1 ? rule.N[q] : ones;
       double fiber[3], sheet[3];
-      interpolate(mesh, e, rule.N[q], fibers, fiber);
-      if (sheets != NULL) interpolate(mesh, e, rule.N[q], sheets, sheet);
+      interpolate(mesh, e, N, fibers, fiber);
+      if (sheets != NULL) interpolate(mesh, e, N, sheets, sheet);
       known &= vsc_axes_complete(fiber, sheets != NULL ? sheet : NULL, vsc_axes_frame(axes, e, q));
       if (known && sheets != NULL && q == 0) judge_sheet(fiber, sheet, report);
     }
@@ -127,9 +130,13 @@ static vsc_status from_arrays(const vsc_mesh *mesh, const vsc_fiber_def *definit
   const double *fibers, *sheets = NULL;
   const char *name = definition->sheet_array;
   const double *on_nodes = node_vectors(mesh, definition->fiber_array);
-  if (vsc_mesh_is_quadratic(mesh) && on_nodes != NULL &&
-      vsc_arrays_find(&mesh->element_data, definition->fiber_array) == NULL) {
-    from_nodes(mesh, on_nodes, node_vectors(mesh, name), axes, report);
+  if (on_nodes != NULL && vsc_arrays_find(&mesh->element_data, definition->fiber_array) == NULL) {
+    sheets = name[0] != '\0' ? node_vectors(mesh, name) : NULL;
+    if (sheets == NULL && name[0] != '\0' && strcmp(name, "sheet") != 0)
+      return vsc_fail(error, VSC_INPUT,
+                      "the mesh has no vectors '%s' on its nodes for the sheet, as '%s' for the fibre",
+                      name, definition->fiber_array);
+    from_nodes(mesh, on_nodes, sheets, axes, report);
     return VSC_OK;
   }
   vsc_status status = find_vectors(mesh, definition->fiber_array, "fibre", &fibers, error);

@@ -14,8 +14,9 @@
 //
 // ARRAYS: a missing fibre array is VSC_INPUT that names those there are; so is a missing sheet
 // array, unless its name is the default "sheet": then sheets follow the rule. Fibres that are zero
-// (below 1e-6) or not finite are none: the element is passive, unless `fill` is set. Quadratic tets may
-// have the vectors on their nodes instead, which are interpolated at the points of each element.
+// (below 1e-6) or not finite are none: the element is passive, unless `fill` is set. The
+// vectors may be on the nodes instead: quadratic tets interpolate them at each of their points, other
+// elements take the mean of their corners.
 vsc_status vsc_fibers_make(const vsc_mesh *mesh, const vsc_fiber_def *definition,
                            const vsc_surface *surfaces, size_t surface_count, vsc_axes **axes,
                            vsc_fiber_report *report, vsc_error *error);

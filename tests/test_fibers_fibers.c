@@ -210,6 +210,38 @@ static void arrays_of_the_mesh(void **state)
   vsc_mesh_free(mesh);
 }
 
+// Vectors on the nodes of linear tets, whose signs mean nothing: an element takes the mean axis.
+static void arrays_of_the_nodes(void **state)
+{
+  (void)state;
+  vsc_mesh *mesh = block();
+  vsc_fiber_def definition = from(VSC_FIBER_ARRAYS);
+  double *fibers = vsc_arrays_add(&mesh->node_data, "fiber", 3, mesh->node_count)->values;
+  for (size_t i = 0; i < mesh->node_count; i++) {
+    const double sign = i % 2 == 0 ? 1 : -1, lean = mesh->nodes[3 * i];
+    fibers[3 * i] = sign * lean;
+    fibers[3 * i + 2] = sign;
+  }
+  vsc_fiber_report report;
+  vsc_axes *axes = make(mesh, &definition, &report);
+  assert_int_equal(report.invalid, 0);
+  for (size_t e = 0; e < mesh->element_count; e++) {
+    double at[3];
+    vsc_mesh_element_centre(mesh, e, at);
+    assert_close(axes->frames[9 * e] / axes->frames[9 * e + 2], at[0], 1e-12, 1e-12);
+  }
+  vsc_axes_free(axes);
+  vsc_copy_name(definition.sheet_array, "blatt");
+  refuse(mesh, &definition, "no vectors 'blatt' on its nodes");
+  double *sheets = vsc_arrays_add(&mesh->node_data, "blatt", 3, mesh->node_count)->values;
+  for (size_t i = 0; i < mesh->node_count; i++) sheets[3 * i + 1] = 2;
+  axes = make(mesh, &definition, &report);
+  for (size_t e = 0; e < mesh->element_count; e++)
+    assert_close(fabs(axes->frames[9 * e + 4]), 1, 0, 1e-12);
+  vsc_axes_free(axes);
+  vsc_mesh_free(mesh);
+}
+
 static void map_from_a_file(void **state)
 {
   (void)state;
@@ -247,7 +279,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(none_is_passive),    cmocka_unit_test(one_direction),
       cmocka_unit_test(figure_six),         cmocka_unit_test(random_fibers_fill_the_sphere),
-      cmocka_unit_test(arrays_of_the_mesh), cmocka_unit_test(map_from_a_file),
+      cmocka_unit_test(arrays_of_the_mesh), cmocka_unit_test(arrays_of_the_nodes),
+      cmocka_unit_test(map_from_a_file),
   };
   return cmocka_run_group_tests_name("fibers/fibers", tests, NULL, NULL);
 }

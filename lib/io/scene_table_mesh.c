@@ -109,7 +109,7 @@ GROUP(static, map, -1);
 
 static const vsc_row array_rows[] = {
     {"fiber", NAME(vsc_fiber_def, fiber_array), .text = "fiber",
-     .meaning = "cell array of vectors"},
+     .meaning = "cell or point array of vectors"},
     {"sheet", NAME(vsc_fiber_def, sheet_array), .text = "sheet",
      .meaning = "likewise; empty: by rule"},
 };

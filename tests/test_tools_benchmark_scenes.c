@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The benchmarks' scenes through the program: what they say is understood, and the smallest one is right.
+#include "program.h"
+
+#define SCENES VSC_SOURCE_DIR "/data/benchmarks/"
+
+static void the_ventricles_are_understood(void **state)
+{
+  (void)state;
+  must("$V generate lv --like land --around 8 --along 5 --layers 1 -o land.vtu");
+  must("$V generate lv --like arostica --around 8 --along 5 --layers 1 -o arostica.vtu");
+  must("$V check " SCENES "land_p2.yaml --set mesh.file=$PWD/land.vtu");
+  must("$V check " SCENES "land_p3.yaml --set mesh.file=$PWD/land.vtu");
+  must("$V check " SCENES "arostica_0a.yaml --set mesh.file=$PWD/arostica.vtu");
+  must("$V check " SCENES "arostica_0b.yaml --set mesh.file=$PWD/arostica.vtu");
+  must("$V check " SCENES "arostica_1.yaml --set mesh.file=$PWD/arostica.vtu");
+  // a key of a driver that means nothing to it
+  assert_int_equal(shell("$V check " SCENES "arostica_1.yaml --set mesh.file=$PWD/arostica.vtu "
+                         "--set 'materials[0].active.curve.filling=1 1/s'"), 2);
+  assert_holds(complained, "filling");
+  assert_int_equal(shell("$V check " SCENES "land_p3.yaml --set mesh.file=$PWD/land.vtu "
+                         "--set 'fibers.ellipsoid.endo=inside'"), 2);
+  assert_holds(complained, "inside");
+}
+
+// Ten cubes of five quadratic tets: 4.1695 mm, within 2 %.
+static void the_beam_bends_as_published(void **state)
+{
+  (void)state;
+  must("$V generate block --size 10,1,1 --cells 10,1,1 -o beam.vtu");
+  must("$V run " SCENES "land_p1.yaml --set mesh.file=$PWD/beam.vtu -o beam --set "
+       "'output.points=[{name: tip, at: [10 mm, 0.5 mm, 1 mm]}]'");
+  const double height = 1 + last_signal("beam", "point_tip_uz");
+  print_message("the tip is at %.4f mm\n", height);
+  assert_close(height, 4.1695, 0.02, 0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_ventricles_are_understood),
+      cmocka_unit_test(the_beam_bends_as_published),
+  };
+  return cmocka_run_group_tests(tests, program_open, program_close);
+}
