@@ -85,7 +85,7 @@ static void check_gradient(random_body *body, const char *name)
   for (int k = 0; k < DIRECTIONS; k++) {
     double *d = random_array(count, 1, 22 + (uint64_t)k);
     for (int s = 0; s < STEPS; s++) {
-      const double h = ldexp(1, -8 - s);
+      const double h = ldexp(1, -9 - s);
       double energy[2];
       for (int side = 0; side < 2; side++) {
         for (size_t i = 0; i < count; i++) moved[i] = x[i] + (side ? -h : h) * d[i];
