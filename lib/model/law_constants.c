@@ -83,3 +83,13 @@ size_t vsc_law_constants(const vsc_material_def *material,
       return 0;
   }
 }
+
+bool vsc_couplings_hold(const vsc_material_def *material)
+{
+  const double *E = material->axial, *H = material->coupling, K = material->volume_modulus;
+  const double f = E[0] + K, s = E[1] + K, n = E[2] + K;
+  const double fs = H[0] + K, sn = H[1] + K, nf = H[2] + K;
+  const double determinant = f * (s * n - sn * sn) - fs * (fs * n - sn * nf) + nf * (fs * sn - s * nf);
+  if (H[0] == 0 && H[1] == 0 && H[2] == 0) return true;
+  return f > 0 && f * s > fs * fs && determinant > 0;
+}

@@ -19,4 +19,8 @@ typedef struct vsc_law_constant {
 size_t vsc_law_constants(const vsc_material_def *material,
                          vsc_law_constant list[VSC_MOST_CONSTANTS]);
 
+// Whether springs along the axes with their couplings and K resist every change of length: the leading
+// minors of E_a delta_ab + H_ab + K are positive. True without couplings.
+bool vsc_couplings_hold(const vsc_material_def *material);
+
 #endif
