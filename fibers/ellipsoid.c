@@ -62,7 +62,13 @@ int vsc_ellipsoid_frame_at(const vsc_fiber_def *definition, const double point[3
   double outwards[3];
   vsc_ellipsoid_normal(&definition->ellipsoid, definition->long_axis, point, t, outwards);
   const double angle = (1 - t) * definition->endo_angle + t * definition->epi_angle;
-  return vsc_helix_frame(outwards, definition->long_axis, angle, frame);
+  if (!vsc_helix_frame(outwards, definition->long_axis, angle, frame)) return 0;
+  for (int a = 3; a < 6 && !definition->sheets_across; a++) {
+    const double e_t = frame[a];
+    frame[a] = frame[3 + a];
+    frame[3 + a] = -e_t;
+  }
+  return 1;
 }
 
 int vsc_ellipsoid_frame(const vsc_fiber_def *definition, const double point[3], double frame[9])

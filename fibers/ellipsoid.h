@@ -16,7 +16,7 @@
 // rl = 90 + 7t mm): endo_angle 60, epi_angle -60 degrees; its printed alpha = -60 + 120 t is minus this
 // angle, for e_u points to the apex. Its t solves Laplace's equation in the wall, 0 inside and 1 outside:
 // vsc_fibers_helix does so when the definition names the surfaces `endo` and `epi`, and takes the ellipsoid
-// only for its normal. (The two depths differ by 0.2 at the apex of that ventricle, fibres by 5 degrees on
+// only for its normal. Its sheets lie in the wall (s0 = f0 x n0, n0 = e_u x e_v): sheets_across 0. (The two depths differ by 0.2 at the apex of that ventricle, fibres by 5 degrees on
 // average.)
 #ifndef VSC_FIBERS_ELLIPSOID_H
 #define VSC_FIBERS_ELLIPSOID_H
@@ -34,7 +34,7 @@ double vsc_ellipsoid_depth(const vsc_ellipsoid_def *wall, const double long_axis
 void vsc_ellipsoid_normal(const vsc_ellipsoid_def *wall, const double long_axis[3],
                           const double point[3], double t, double outwards[3]);
 
-// The frame (rows f, s, n; s = e_t) of definition->ellipsoid at a point, with vsc_ellipsoid_normal and the
+// The frame (rows f, s, n; s = e_t, or n = -e_t without sheets_across) of definition->ellipsoid at a point, with vsc_ellipsoid_normal and the
 // angle for the depth t. Returns 0, leaving the frame alone, in the centre;
 // else 1.
 int vsc_ellipsoid_frame_at(const vsc_fiber_def *definition, const double point[3], double t,

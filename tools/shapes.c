@@ -148,6 +148,7 @@ void vsc_lv_frame(const vsc_lv_shape *lv, const double point[3], double endo_ang
 {
   const double *axis = lv->along_x ? x_axis : z_axis;
   const vsc_fiber_def fibers = {.ellipsoid = wall_of(lv),
+                                .sheets_across = 1,
                                 .long_axis = {axis[0], axis[1], axis[2]},
                                 .endo_angle = endo_angle,
                                 .epi_angle = epi_angle};

@@ -135,6 +135,8 @@ static const vsc_row helix_rows[] = {
 };
 GROUP(static, helix, -1);
 
+static const vsc_word sheet_words[] = {{"across", 1}, {"along", 0}, {NULL, 0}};
+
 static const vsc_row ellipsoid_rows[] = {
     {"centre", VECTOR(vsc_fiber_def, ellipsoid.centre, VSC_LENGTH), .text = "[0 mm, 0 mm, 0 mm]",
      .meaning = "of both ellipsoids"},
@@ -155,6 +157,8 @@ static const vsc_row ellipsoid_rows[] = {
      .meaning = "helix angle inside, from the circumference towards the base"},
     {"epi_angle", QUANTITY(vsc_fiber_def, epi_angle, VSC_ANGLE), .text = "-60 deg",
      .meaning = "outside"},
+    {"sheets", CHOICE(vsc_fiber_def, sheets_across, sheet_words), .text = "across",
+     .meaning = "across the wall, or along it (the normal then goes across)"},
 };
 GROUP(static, ellipsoid, -1);
 

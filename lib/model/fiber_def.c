@@ -23,6 +23,7 @@ vsc_fiber_def vsc_default_fiber(void)
       .epi_angle = -60 * degree,
       .long_axis = {0, 0, 1},
       .pitch = 30 * degree,
+      .sheets_across = 1,
       .seed = 1,
   };
   vsc_copy_name(fiber.map.azimuth, "azimuth");

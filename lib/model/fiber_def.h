@@ -69,6 +69,8 @@ typedef struct vsc_fiber_def {
   double epi_angle;     // HELIX, ELLIPSOID: at the epicardium, radians; default -60 degrees
   double long_axis[3];  // HELIX, ELLIPSOID: from apex to base; default 0 0 1
   vsc_ellipsoid_def ellipsoid;  // ELLIPSOID
+  int sheets_across;            // ELLIPSOID: 1 (default): the sheet axis s goes across the wall, along its
+                                // normal; 0: it lies in the wall, and n goes across
   double pitch;         // HELICOIDAL: radians above the horizontal; default 30 degrees
   unsigned long seed;   // RANDOM: default 1
 } vsc_fiber_def;
