@@ -62,7 +62,14 @@ int vsc_ellipsoid_frame_at(const vsc_fiber_def *definition, const double point[3
   double outwards[3];
   vsc_ellipsoid_normal(&definition->ellipsoid, definition->long_axis, point, t, outwards);
   const double angle = (1 - t) * definition->endo_angle + t * definition->epi_angle;
-  return vsc_helix_frame(outwards, definition->long_axis, angle, frame);
+  if (!vsc_helix_frame(outwards, definition->long_axis, angle, frame)) return 0;
+  // a quarter turn about the fibre: s, n become n, -s
+  for (int a = 0; a < 3 && definition->ellipsoid.sheet_within; a++) {
+    const double through = frame[3 + a];
+    frame[3 + a] = frame[6 + a];
+    frame[6 + a] = -through;
+  }
+  return 1;
 }
 
 int vsc_ellipsoid_frame(const vsc_fiber_def *definition, const double point[3], double frame[9])

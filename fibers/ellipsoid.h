@@ -34,7 +34,7 @@ double vsc_ellipsoid_depth(const vsc_ellipsoid_def *wall, const double long_axis
 void vsc_ellipsoid_normal(const vsc_ellipsoid_def *wall, const double long_axis[3],
                           const double point[3], double t, double outwards[3]);
 
-// The frame (rows f, s, n; s = e_t) of definition->ellipsoid at a point, with vsc_ellipsoid_normal and the
+// The frame (rows f, s, n; s = e_t, or, where the sheets lie within the wall, s = f x e_t, n = -e_t) of definition->ellipsoid at a point, with vsc_ellipsoid_normal and the
 // angle for the depth t. Returns 0, leaving the frame alone, in the centre;
 // else 1.
 int vsc_ellipsoid_frame_at(const vsc_fiber_def *definition, const double point[3], double t,

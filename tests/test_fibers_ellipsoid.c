@@ -91,6 +91,24 @@ static void the_fibres_of_arostica(void **state)
   }
 }
 
+// The benchmark's n0 goes through the wall, s0 = f0 x n0 lies within it.
+static void sheets_within_the_wall(void **state)
+{
+  (void)state;
+  vsc_fiber_def definition = arostica();
+  const double point[3] = {-20, 18, 21};
+  double through[9], within[9], s0[3];
+  assert_int_equal(vsc_ellipsoid_frame(&definition, point, through), 1);
+  definition.ellipsoid.sheet_within = true;
+  assert_int_equal(vsc_ellipsoid_frame(&definition, point, within), 1);
+  vsc_cross(through, through + 3, s0);
+  for (int a = 0; a < 3; a++) {
+    assert_close(within[a], through[a], 0, 0);
+    assert_close(within[3 + a], s0[a], 0, 1e-15);
+    assert_close(within[6 + a], -through[3 + a], 0, 0);
+  }
+}
+
 // A right-handed helix climbs to the base while it turns anti-clockwise, seen from there.
 static void inner_fibres_are_right_handed(void **state)
 {
@@ -185,6 +203,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_fibres_of_land),
       cmocka_unit_test(the_fibres_of_arostica),
+      cmocka_unit_test(sheets_within_the_wall),
       cmocka_unit_test(inner_fibres_are_right_handed),
       cmocka_unit_test(points_beside_the_wall_have_its_angles),
       cmocka_unit_test(elements_take_the_fibres_of_their_places),

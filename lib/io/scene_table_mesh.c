@@ -135,6 +135,8 @@ static const vsc_row helix_rows[] = {
 };
 GROUP(static, helix, -1);
 
+static const vsc_word sheet_kinds[] = {{"through", false}, {"within", true}, {NULL, 0}};
+
 static const vsc_row ellipsoid_rows[] = {
     {"centre", VECTOR(vsc_fiber_def, ellipsoid.centre, VSC_LENGTH), .text = "[0 mm, 0 mm, 0 mm]",
      .meaning = "of both ellipsoids"},
@@ -155,6 +157,8 @@ static const vsc_row ellipsoid_rows[] = {
      .meaning = "helix angle inside, from the circumference towards the base"},
     {"epi_angle", QUANTITY(vsc_fiber_def, epi_angle, VSC_ANGLE), .text = "-60 deg",
      .meaning = "outside"},
+    {"sheet", CHOICE(vsc_fiber_def, ellipsoid.sheet_within, sheet_kinds), .text = "through",
+     .meaning = "sheet axis through the wall, or within it, across the fibre"},
 };
 GROUP(static, ellipsoid, -1);
 

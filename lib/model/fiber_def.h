@@ -51,6 +51,8 @@ typedef struct vsc_ellipsoid_def {
   double endo_length;  // from the centre to its apex
   double epi_radius;   // the same of the outer one
   double epi_length;
+  bool sheet_within;   // the sheet axis lies within the wall, across the fibre; default false: it goes
+                       // through the wall
 } vsc_ellipsoid_def;
 
 typedef struct vsc_fiber_def {
