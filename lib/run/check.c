@@ -18,7 +18,7 @@
 
 static const char *const source_names[] = {"none",       "map",        "arrays",   "constant",
                                            "helix",      "horizontal", "diagonal", "hemicircular",
-                                           "helicoidal", "random"};
+                                           "helicoidal", "random", "ellipsoid"};
 
 static void say_mesh(const vsc_problem *problem, FILE *out)
 {
