@@ -34,7 +34,7 @@ static void a_ventricle_is_checked(void **state)
   (void)state;
   must("$V generate lv --endo-radius 7 --endo-length 17 --epi-radius 10 --epi-length 20 --base 5 "
        "--around 12 --along 5 --layers 1 -o lv.vtu");
-  assert_holds(said, "152 nodes, 345 tets");
+  assert_holds(said, "152 nodes, 345 elements");
   save_text("lv.yaml", ventricle);
   must("$V check lv.yaml");
   assert_holds(said, "798 nodes, 345 quadratic tetrahedra");
