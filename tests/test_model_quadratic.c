@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Models of quadratic tets: masses, weight, one frame or four, and what is refused.
 #include "kinds_body.h"
+#include "mech/element.h"
 #include "model/masses.h"
 
 // int N_i N_j dV / V over the reference tet by four Gauss points along each collapsed coordinate: exact
@@ -90,6 +91,33 @@ static void weight_is_consistent_where_it_may(void **state)
   body_close(&body);
 }
 
+// At rest the axes of each frame are those of its point; rounding of sums of ten places up to 2 mm.
+static void each_point_has_its_axes(void **state)
+{
+  (void)state;
+  random_body body;
+  open_body(&body, 7);
+  const vsc_model *model = body.model;
+  for (size_t p = 0; p < model->patch_count; p++)
+    for (size_t k = model->patches[p].first_pack;
+         k < model->patches[p].first_pack + model->patches[p].pack_count; k++)
+      for (int q = 0; q < 4; q++) {
+        vsc_wide3 g[3];
+        vsc_pack_axes(model, &model->patches[p], k, q, model->rest, g);
+        for (int l = 0; l < VSC_WIDTH; l++) {
+          const uint32_t element = model->mesh_element[VSC_WIDTH * k + (size_t)l];
+          if (element == VSC_NO_ELEMENT) continue;
+          const double *frame = vsc_axes_frame(body.axes, element, q);
+          for (int a = 0; a < 3; a++) {
+            assert_close(g[a].x[l], frame[3 * a], 0, 1e-13);
+            assert_close(g[a].y[l], frame[3 * a + 1], 0, 1e-13);
+            assert_close(g[a].z[l], frame[3 * a + 2], 0, 1e-13);
+          }
+        }
+      }
+  body_close(&body);
+}
+
 // One frame of each element stands for all its points.
 static void one_frame_will_do(void **state)
 {
@@ -170,6 +198,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(masses_are_those_of_the_functions),
       cmocka_unit_test(weight_is_consistent_where_it_may),
+      cmocka_unit_test(each_point_has_its_axes),
       cmocka_unit_test(one_frame_will_do),
       cmocka_unit_test(what_knows_corners_only_is_refused),
   };
