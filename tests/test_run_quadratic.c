@@ -43,6 +43,7 @@ static void a_ventricle_is_checked(void **state)
   assert_holds(said, "a cavity of 2.49");
   assert_holds(said, "base (72 nodes) held in x y z");
   assert_holds(said, "fibres     helix: 345 of 345 elements");
+  assert_holds(said, "fewer than two layers");
   must("$V check lv.yaml --set mesh.order=1 --set 'mesh.curved=[]'");
   assert_holds(said, "152 nodes, 345 tetrahedra");
   assert_holds(said, "a cavity of 2.33");

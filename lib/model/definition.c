@@ -52,7 +52,7 @@ vsc_support_def vsc_default_support(void)
 vsc_definition vsc_default_definition(void)
 {
   return (vsc_definition){.volume = VSC_VOLUME_NODAL, .safety = 0.8, 
-                          .solve = {.rho = 0.5, .accuracy = 1e-5, .tolerance = 1e-6}};
+                          .solve = {.rho = 0.5, .accuracy = 1e-4, .tolerance = 1e-6}};
 }
 
 bool vsc_takes_elements(const vsc_definition *definition, size_t material)

@@ -324,7 +324,7 @@ typedef struct vsc_solve_def {
   vsc_scheme scheme;
   double rho;        // GENERALIZED_ALPHA: by what the fastest motions decay in each step, 0 to 1; default 0.5
   double accuracy;   // IMPLICIT without a given step: error of a step as a part of the body's size;
-                     // default 1e-5
+                     // default 1e-4
   double tolerance;  // of the residual, as a part of the forces at work; default 1e-6
   double incompressible;  // EQUILIBRIUM by Newton: largest |J - 1| of shared volumes, by multipliers; 0: as K
                           // has it (default)

@@ -483,7 +483,7 @@ vsc_status vsc_definition_check(const vsc_definition *d, vsc_error *error)
   need(&c, d->solve.rho >= 0 && d->solve.rho <= 1, "solver.rho", d->solve.rho, "",
        "give a number from 0 to 1");
   need(&c, d->solve.accuracy > 0 && d->solve.accuracy < 0.1, "solver.accuracy", d->solve.accuracy, "",
-       "give a part of the body's size above 0 and below 0.1; 1e-5 is usual");
+       "give a part of the body's size above 0 and below 0.1; 1e-4 is usual");
   need(&c, d->solve.incompressible >= 0 && d->solve.incompressible < 0.1, "solver.incompressible",
        d->solve.incompressible, "", "give a part of the volume below 0.1, or 0");
   need(&c,

@@ -3,6 +3,7 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "base/mem.h"
 #include "base/vec3.h"
 #include "model/small_strain.h"
 #include "run/check.h"
@@ -147,6 +148,40 @@ static void warn_fibers(writer *w, const vsc_problem *problem)
          f->worst_sheet_angle);
 }
 
+// The part of the elements whose corners are all on the boundary: near 1 for a wall of one layer, 0 from
+// two on. -1 when memory is short.
+static double boundary_elements(const vsc_mesh *mesh)
+{
+  vsc_surface boundary = {0};
+  uint8_t *outside;
+  size_t count = 0;
+  if (!VSC_NEW(outside, mesh->node_count)) return -1;
+  const bool found = vsc_boundary(mesh, &boundary, NULL) == VSC_OK;
+  for (size_t k = 0; k < 3 * boundary.count; k++) outside[boundary.triangles[k]] = 1;
+  for (size_t e = 0; e < mesh->element_count; e++) {
+    bool all = true;
+    for (int c = 0; c < vsc_mesh_kind(mesh, e)->vertices; c++)
+      all = all && outside[vsc_mesh_corners(mesh, e)[c]];
+    count += all;
+  }
+  vsc_surface_free(&boundary);
+  vsc_free(outside);
+  return found ? (double)count / (double)mesh->element_count : -1;
+}
+
+static void warn_layers(writer *w, const vsc_problem *problem)
+{
+  const vsc_fiber_source source = problem->scene->fibers.source;
+  if (problem->mesh->element_count == 0 || source == VSC_FIBER_NONE || source == VSC_FIBER_CONSTANT)
+    return;
+  if (boundary_elements(problem->mesh) > 0.5)
+    warn(w,
+         "mesh: more than half of the elements have all corners on the surface, so the wall has fewer than "
+         "two layers while fibres turn through it: the apex and the twist will be off; take two layers or "
+         "more%s",
+         problem->scene->definition.tets == VSC_TETS_SMOOTHED ? ", or tets: plain" : "");
+}
+
 static void warn_setting(writer *w, const vsc_problem *problem)
 {
   const vsc_model *model = problem->model;
@@ -174,6 +209,7 @@ int vsc_check_warnings(const vsc_problem *problem, FILE *stream, const char *pre
   for (size_t m = 0; m < problem->model->material_count; m++)
     warn_material(&w, problem, m);
   warn_membranes(&w, problem);
+  warn_layers(&w, problem);
   warn_fibers(&w, problem);
   warn_vessels(&w, problem);
   warn_setting(&w, problem);

@@ -43,11 +43,10 @@ const vsc_bench_problem vsc_bench_vibration = {
   {.name = p " z in the band", .unit = "%", .measure = vsc_measure_band, .column = "point_" p "_u",    \
    .file = curves, .file_column = p, .axis = 2, .reference = 100, .within = 5}
 
-// Of 2,160 and 10,080 tets.
+// On the benchmark's own mesh of 17,625 tets: its programs' springs hold on the normals of its flat
+// triangles, and on a smooth ellipsoid the wall slides 5 % further than theirs.
 static const vsc_bench_size walls[] = {
-    {VSC_BENCH_NODAL | VSC_BENCH_SMOOTHED | VSC_BENCH_QUADRATIC | VSC_BENCH_HEXES,
-     "--around=16 --along=14 --layers=2"},
-    {VSC_BENCH_NODAL | VSC_BENCH_SMOOTHED | VSC_BENCH_HEXES, "--around=24 --along=26 --layers=3"},
+    {VSC_BENCH_NODAL, ""},
 };
 
 static const vsc_bench_quantity contracts[] = {
@@ -55,7 +54,7 @@ static const vsc_bench_quantity contracts[] = {
 
 const vsc_bench_problem vsc_bench_arostica_0a = {
     .name = "arostica_0a", .title = "Arostica 2025, case 0A: a ventricle contracts",
-    .scene = "arostica_0a.yaml", .shape = "lv --like=arostica",
+    .scene = "arostica_0a.yaml", .mesh = "monoventricle_5mm.vtu",
     .variants = VSC_COUNTED(explicit_or_not), .sizes = VSC_COUNTED(walls),
     .quantities = VSC_COUNTED(contracts),
 };
@@ -65,7 +64,7 @@ static const vsc_bench_quantity snaps[] = {
 
 const vsc_bench_problem vsc_bench_arostica_0b = {
     .name = "arostica_0b", .title = "Arostica 2025, case 0B: a ventricle is filled and snaps through",
-    .scene = "arostica_0b.yaml", .shape = "lv --like=arostica",
+    .scene = "arostica_0b.yaml", .mesh = "monoventricle_5mm.vtu",
     .variants = VSC_COUNTED(explicit_or_not), .sizes = VSC_COUNTED(walls),
     .quantities = VSC_COUNTED(snaps),
 };
@@ -78,13 +77,13 @@ static const vsc_bench_quantity beats[] = {
 
 const vsc_bench_problem vsc_bench_arostica_1 = {
     .name = "arostica_1", .title = "Arostica 2025, case 1: a ventricle beats",
-    .scene = "arostica_1.yaml", .shape = "lv --like=arostica",
+    .scene = "arostica_1.yaml", .mesh = "monoventricle_5mm.vtu",
     .variants = VSC_COUNTED(explicit_or_not), .sizes = VSC_COUNTED(walls),
     .quantities = VSC_COUNTED(beats),
 };
 
 static const vsc_bench_size two_ventricles[] = {
-    {VSC_BENCH_NODAL | VSC_BENCH_SMOOTHED | VSC_BENCH_QUADRATIC, ""},
+    {VSC_BENCH_NODAL, ""},
 };
 
 static const vsc_bench_quantity two_beat[] = {
