@@ -8,7 +8,8 @@
 //   vsc_default_definition, vsc_default_material     what to simulate
 //   vsc_calibrate, vsc_material_of_springs           springs for wanted moduli
 //   vsc_model_build                                  the immutable model
-//   vsc_state_create, vsc_start, vsc_advance         the moving state
+//   vsc_state_create, vsc_start, vsc_advance         the moving state, explicitly
+//   vsc_solve_start, vsc_solve_to                    the same by the model's method
 //   vsc_read_field, vsc_observe                      what to see of it
 //   vsc_problem_load, vsc_run                        or everything at once, from a scene file
 //
@@ -34,5 +35,6 @@
 #include "run/problem.h"
 #include "run/run.h"
 #include "solve/explicit.h"
+#include "solve/solve.h"
 
 #endif

@@ -66,11 +66,10 @@ static double stiffest_ratio(const vsc_model *model)
   return most;
 }
 
-vsc_status vsc_linear_create(const vsc_model *model, const vsc_tangent *tangent,
-                             vsc_linear_kind kind, vsc_linear **linear, vsc_error *error)
+vsc_status vsc_linear_create(const vsc_model *model, vsc_linear_kind kind, vsc_linear **linear,
+                             vsc_error *error)
 {
   vsc_linear *made;
-  (void)tangent;
   *linear = NULL;
   if (!VSC_NEW(made, 1)) return vsc_fail_memory(error, "the linear solver");
   const size_t nodes = model->node_count;

@@ -17,9 +17,9 @@ typedef struct vsc_linear_counts {
   double factor_flops;    // operations of one factorisation
 } vsc_linear_counts;
 
-// For systems with the pattern of `tangent`, which must outlive it. The caller owns *linear.
-vsc_status vsc_linear_create(const vsc_model *model, const vsc_tangent *tangent,
-                             vsc_linear_kind kind, vsc_linear **linear, vsc_error *error);
+// For tangents of `model`, which must outlive it. The caller owns *linear.
+vsc_status vsc_linear_create(const vsc_model *model, vsc_linear_kind kind, vsc_linear **linear,
+                             vsc_error *error);
 
 void vsc_linear_free(vsc_linear *linear);  // NULL is fine
 

@@ -27,7 +27,7 @@ vsc_status vsc_newton_create(const vsc_model *model, vsc_newton **newton, vsc_er
   made->size = vsc_body_size(model);
   vsc_status status = vsc_tangent_create(model, &made->tangent, error);
   if (status == VSC_OK)
-    status = vsc_linear_create(model, made->tangent, model->solve.linear, &made->linear, error);
+    status = vsc_linear_create(model, model->solve.linear, &made->linear, error);
   if (status == VSC_OK && (!VSC_NEW(made->r, count) || !VSC_NEW(made->d, count) ||
                            !VSC_NEW(made->trial, count) || !VSC_NEW(made->before, count)))
     status = vsc_fail_memory(error, "Newton's method");
@@ -147,9 +147,8 @@ static bool stands_still(const vsc_newton *newton)
   return most <= STILL * newton->size;
 }
 
-static vsc_status fail(vsc_error *error, const vsc_model *model, double time, const char *why)
+static vsc_status fail(vsc_error *error, double time, const char *why)
 {
-  (void)model;
   return vsc_fail(error, VSC_NUMERICAL, "at %.6g ms no equilibrium was found: %s", time, why);
 }
 
@@ -196,7 +195,7 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
     if (status != VSC_OK) {
       newton->failures++;
       return status == VSC_NUMERICAL
-                 ? fail(error, model, time, "the tangent has lost its stiffness (buckling, or too "
+                 ? fail(error, time, "the tangent has lost its stiffness (buckling, or too "
                                             "large an increment)")
                  : status;
     }
@@ -205,12 +204,12 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
       newton->failures++;
       char why[80];
       snprintf(why, sizeof why, "element %u would turn inside out", element);
-      return fail(error, model, time, why);
+      return fail(error, time, why);
     }
   }
   newton->failures++;
   char why[120];
   snprintf(why, sizeof why, "the residual is %.2g of the forces after %d iterations, not below %.2g",
            newton->scale > 0 ? before / newton->scale : 0, *iterations, tolerance);
-  return fail(error, model, time, why);
+  return fail(error, time, why);
 }
