@@ -105,6 +105,16 @@ static inline void kinds_open(random_body *body, vsc_mesh *mesh, const vsc_mater
   kinds_open_tets(body, mesh, material, volume, VSC_TETS_PLAIN, seed);
 }
 
+// Positions A X of the mesh's nodes into the state.
+static inline void deform(random_body *body, const double A[9])
+{
+  double *x = numbers(3 * body->mesh->node_count);
+  for (size_t n = 0; n < body->mesh->node_count; n++)
+    rotate_vector(A, body->mesh->nodes + 3 * n, x + 3 * n);
+  to_model(body->model, x, body->state->x);
+  vsc_free(x);
+}
+
 // Stored energy at positions x (mesh's order).
 static inline double kinds_energy(random_body *body, const double *x, vsc_totals *totals)
 {

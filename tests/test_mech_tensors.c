@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Strain, stress and helix angle of elements: closed forms, rotation, and the nodes' forces.
+// Strain and stress of elements: closed forms, rotation, and the nodes' forces.
 #include <gsl/gsl_linalg.h>
 
 #include "base/vec3.h"
 #include "kinds_body.h"
-
-// Positions A X of the mesh's nodes into the state.
-static void deform(random_body *body, const double A[9])
-{
-  double *x = numbers(3 * body->mesh->node_count);
-  for (size_t n = 0; n < body->mesh->node_count; n++)
-    rotate_vector(A, body->mesh->nodes + 3 * n, x + 3 * n);
-  to_model(body->model, x, body->state->x);
-  vsc_free(x);
-}
 
 static double *read_field(random_body *body, vsc_field field)
 {
@@ -69,7 +59,7 @@ static void stretched_springs(void **state)
     strain[a] = 0.5 * (l[a] * l[a] - 1);
     stress[a] = l[a] * axial[a] * (l[a] - 1) / J + volume_stress(J);
   }
-  for (kinds_mesh kind = ALL_HEXES; kind <= ALL_TETS; kind++) {
+  for (kinds_mesh kind = ALL_HEXES; kind <= ALL_TETS10; kind++) {
     random_body body;
     open_aligned(&body, mesh_of(kind, 2, 5), identity, false);
     deform(&body, A);
@@ -271,7 +261,7 @@ static void stress_is_what_pulls_at_the_nodes(void **state)
   static vsc_axis_def axes[2];
   static vsc_pair_def pairs[2];
   for (int which = 0; which < MATERIALS; which++)
-    for (kinds_mesh kind = ALL_HEXES; kind <= ALL_TETS; kind++)
+    for (kinds_mesh kind = ALL_HEXES; kind <= ALL_TETS10; kind++)
       for (int alone = 0; alone < 2; alone++) {
         random_body body;
         const vsc_material_def material = any_material(which, axes, pairs);
@@ -279,11 +269,41 @@ static void stress_is_what_pulls_at_the_nodes(void **state)
                    alone ? VSC_VOLUME_ELEMENT : VSC_VOLUME_NODAL, 22);
         const size_t count = 3 * body.mesh->node_count;
         double *x = deformed(body.mesh, 0.12, 0.05, 23), *w = random_array(count, 1, 24);
+        to_model(body.model, x, body.state->x);
         stress_works_as_the_forces_do(&body, x, w, 0);
         vsc_free(x);
         vsc_free(w);
         body_close(&body);
       }
+}
+
+// The multipliers of solver.incompressible pull at the nodes too.
+static void multipliers_are_in_the_stress(void **state)
+{
+  (void)state;
+  for (kinds_mesh kind = ALL_HEXES; kind <= ALL_TETS10; kind++) {
+    random_body body = {.mesh = mesh_of(kind, 3, 25)};
+    body.axes = random_axes(body.mesh->element_count, 26);
+    body.materials[0] = springs_material(NULL, NULL);
+    memset(body.materials[0].damping, 0, sizeof body.materials[0].damping);
+    body.definition = vsc_default_definition();
+    body.definition.end_time = 1000;
+    body.definition.solve.kind = VSC_SOLVE_EQUILIBRIUM;
+    body.definition.solve.incompressible = 1e-4;
+    body.definition.material_count = 1;
+    body.definition.materials = body.materials;
+    body_build(&body);
+    uint64_t seed = 27;
+    vsc_scratch *scratch = &body.state->scratch;
+    random_fill(&seed, 20, scratch->node_multiplier, (int)body.model->node_count);
+    random_fill(&seed, 20, scratch->pack_multiplier, VSC_WIDTH * (int)body.model->pack_count);
+    const size_t count = 3 * body.mesh->node_count;
+    double *x = deformed(body.mesh, 0.12, 0.05, 28), *w = random_array(count, 1, 29);
+    stress_works_as_the_forces_do(&body, x, w, 0);
+    vsc_free(x);
+    vsc_free(w);
+    body_close(&body);
+  }
 }
 
 static void activity_is_in_the_stress(void **state)
@@ -364,50 +384,6 @@ static void damping_is_in_the_stress(void **state)
   body_close(&body);
 }
 
-// A fibre at 30 degrees above the circumference on a cylinder round a line that is not an axis of the
-// coordinates; the body stretched along the line by s and turned: atan(s tan 30).
-static void helix_angles(void **state)
-{
-  (void)state;
-  uint64_t seed = 61;
-  double R[9], turned[9];
-  const double s = 1.4, angle = M_PI / 6, centre[3] = {4, -3, 0.5};
-  random_rotation(&seed, R);
-  vsc_mesh *mesh = mesh_of(ALL_KINDS, 3, 62);
-  random_body body = {.mesh = mesh, .axes = vsc_axes_create(mesh->element_count)};
-  for (size_t e = 0; e < mesh->element_count; e++) {
-    double at[3] = {0};
-    const uint32_t *corner = vsc_mesh_corners(mesh, e);
-    const int corners = vsc_mesh_kind(mesh, e)->corners;
-    for (int c = 0; c < corners; c++)
-      for (int i = 0; i < 3; i++) at[i] += mesh->nodes[3 * (size_t)corner[c] + (size_t)i] / corners;
-    const double x = at[0] - centre[0], y = at[1] - centre[1], r = hypot(x, y);
-    // every other fibre points the other way: an axis has no direction
-    const double sign = e % 2 ? -1 : 1;
-    const double fiber[3] = {-sign * cos(angle) * y / r, sign * cos(angle) * x / r, sign * sin(angle)};
-    vsc_axes_set(body.axes, e, fiber, NULL);
-  }
-  body.materials[0] = springs_material(NULL, NULL);
-  body.definition = vsc_default_definition();
-  body.definition.end_time = 1000;
-  body.definition.material_count = 1;
-  body.definition.materials = body.materials;
-  body_build(&body);
-  const double stretched[9] = {1, 0, 0, 0, 1, 0, 0, 0, s};
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) turned[3 * i + j] = R[3 * i + j] * stretched[4 * j];
-  deform(&body, turned);
-  double *values = numbers(mesh->element_count), there[3];
-  const double axis[3] = {3 * R[2], 3 * R[5], 3 * R[8]};
-  rotate_vector(turned, centre, there);
-  vsc_read_helix_angle(body.model, body.state, there, axis, values);
-  for (size_t e = 0; e < mesh->element_count; e++)
-    // rounding of an angle in degrees
-    assert_close(values[e], 180 / M_PI * atan(s * tan(angle)), 0, 1e-11);
-  vsc_free(values);
-  body_close(&body);
-}
-
 static void stress_needs_a_law_of_strain(void **state)
 {
   (void)state;
@@ -461,10 +437,10 @@ int main(void)
       cmocka_unit_test(sheared_springs),
       cmocka_unit_test(tensors_turn_with_the_body),
       cmocka_unit_test(stress_is_what_pulls_at_the_nodes),
+      cmocka_unit_test(multipliers_are_in_the_stress),
       cmocka_unit_test(activity_is_in_the_stress),
       cmocka_unit_test(pressed_block),
       cmocka_unit_test(damping_is_in_the_stress),
-      cmocka_unit_test(helix_angles),
       cmocka_unit_test(stress_needs_a_law_of_strain),
       cmocka_unit_test(threads_change_nothing),
   };

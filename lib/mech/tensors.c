@@ -128,7 +128,9 @@ static vsc_wide shared_pressure(const vsc_patch_work *work, const vsc_model *mod
     rest += frames[q].V;
   }
   const vsc_wide_mask full = rest > 0;
-  return vsc_volume_stress(moduli->volume_modulus, vsc_select(full, volume, vsc_splat(1)) /
+  if (work->multipliers != NULL) pressure = work->multipliers[k - patch->first_pack];
+  return pressure +
+         vsc_volume_stress(moduli->volume_modulus, vsc_select(full, volume, vsc_splat(1)) /
                                                        vsc_select(full, rest, vsc_splat(1)));
 }
 
