@@ -4,6 +4,7 @@
 
 #include "base/vec3.h"
 #include "kinds_body.h"
+#include "mech/prony.h"
 
 static double *read_field(random_body *body, vsc_field field)
 {
@@ -241,12 +242,15 @@ static void stress_works_as_the_forces_do(random_body *body, const double *x, co
 // Springs with all that they can have, and tissue laws of the full and the isochoric deformation.
 static vsc_material_def any_material(int which, vsc_axis_def axes[2], vsc_pair_def pairs[2])
 {
+  static vsc_prony_def prony[2] = {{0.3, 4}, {0.2, 20}};
   vsc_material_def material = springs_material(axes, pairs);
   material.viscosity = 0.4;
   for (int a = 0; a < 3; a++) material.coupling[a] = 0.5 * a;
   if (which == 0) return material;
   material.axis_count = material.pair_count = 0;
   material.isochoric = which == 2;
+  material.prony = prony;
+  material.prony_count = which == 1 ? 2 : 0;
   material.law = which < 3 ? VSC_LAW_NEO_HOOKEAN : VSC_LAW_HOLZAPFEL_OGDEN;
   material.shear = 8;
   material.holzapfel_ogden = (vsc_holzapfel_ogden_def){
@@ -270,6 +274,7 @@ static void stress_is_what_pulls_at_the_nodes(void **state)
         const size_t count = 3 * body.mesh->node_count;
         double *x = deformed(body.mesh, 0.12, 0.05, 23), *w = random_array(count, 1, 24);
         to_model(body.model, x, body.state->x);
+        if (body.state->prony != NULL) vsc_prony_step(body.model, body.state, 3);
         stress_works_as_the_forces_do(&body, x, w, 0);
         vsc_free(x);
         vsc_free(w);

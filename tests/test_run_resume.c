@@ -100,8 +100,40 @@ static void test_cut_in_two(void **state)
   assert_same_runs("cut", "whole");
 }
 
-// With springs and dashpots on a surface and a support that moves, too: any number of threads, cut at a time
-// that is no event, and gone on.
+// A run of `command` in one go, and another one with other numbers of threads, cut at a time that is no
+// event and gone on.
+static void cut_and_compare(const char *command, const char *whole)
+{
+  static const struct {
+    const char *options, *outcome;
+  } runs[] = {{"-t 1 -o %s", "finished"},
+              {"-t 2 -o %s_cut --stop '7.77 ms'", "stopped"},
+              {"-t 3 -o %s_cut --resume", "finished"}};
+  char cut[64], options[96], text[640];
+  snprintf(cut, sizeof cut, "%s_cut", whole);
+  for (size_t k = 0; k < 3; k++) {
+    snprintf(options, sizeof options, runs[k].options, whole);
+    snprintf(text, sizeof text, "%s %s", command, options);
+    must(text);
+    assert_string_equal(summary(k == 0 ? whole : cut, "outcome"), runs[k].outcome);
+  }
+  assert_same_runs(cut, whole);
+}
+
+// What relaxes in a Prony series goes on as if nothing had been cut.
+static void test_prony(void **state)
+{
+  (void)state;
+  static char rows[PROGRAM_TEXT];
+  cut_and_compare("$V run block.yaml -q --set 'materials[0].prony=[{modulus: 0.3, time: 5 ms}, "
+                  "{modulus: 0.2, time: 0.1 s}]'",
+                  "relaxing");
+  load_text("relaxing/signals.csv", rows, sizeof rows);
+  assert_holds(rows, "work_prony [mJ]");
+  assert_string_not_equal(summary("relaxing", "model_hash"), summary("whole", "model_hash"));
+}
+
+// With springs and dashpots on a surface and a support that moves, too: as above.
 static void test_moved_supports(void **state)
 {
   (void)state;
@@ -109,18 +141,7 @@ static void test_moved_supports(void **state)
       "$V run block.yaml -q --set 'robin=[{surface: skin, stiffness: 1 kPa/mm, damping: 2 kPa ms/mm, "
       "direction: normal}]' --set 'supports[0].motion=[1 mm, 0 mm, 0.5 mm]' "
       "--set 'supports[0].curve={kind: half_sine, duration: 15 ms}'";
-  char command[512];
-  const struct {
-    const char *options, *outcome;
-  } runs[] = {{"-t 1 -o moved", "finished"},
-              {"-t 2 -o moved_cut --stop '7.77 ms'", "stopped"},
-              {"-t 3 -o moved_cut --resume", "finished"}};
-  for (size_t k = 0; k < 3; k++) {
-    snprintf(command, sizeof command, "%s %s", moved, runs[k].options);
-    must(command);
-    assert_string_equal(summary(k == 0 ? "moved" : "moved_cut", "outcome"), runs[k].outcome);
-  }
-  assert_same_runs("moved_cut", "moved");
+  cut_and_compare(moved, "moved");
   static char rows[PROGRAM_TEXT];
   load_text("moved/signals.csv", rows, sizeof rows);
   assert_holds(rows, "energy_springs [mJ]");
@@ -318,6 +339,7 @@ int main(void)
       cmocka_unit_test(test_threads),
       cmocka_unit_test(test_cut_in_two),
       cmocka_unit_test(test_moved_supports),
+      cmocka_unit_test(test_prony),
       cmocka_unit_test(test_later_end),
       cmocka_unit_test(test_cut_anywhere),
       cmocka_unit_test(test_older_checkpoint),

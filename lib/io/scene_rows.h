@@ -47,6 +47,7 @@ extern const vsc_group vsc_law_holzapfel_ogden_group, vsc_law_mooney_rivlin_grou
 extern const vsc_group vsc_law_veronda_westmann_group;  // all vsc_material_def
 extern const vsc_group vsc_axis_group;       // an item of a material's axes; vsc_axis_def
 extern const vsc_group vsc_pair_group;       // an item of a material's pairs; vsc_pair_def
+extern const vsc_group vsc_prony_group;      // an item of a material's prony; vsc_prony_def
 extern const vsc_group vsc_inclusion_group;  // an item of a material's inclusions; vsc_inclusion_def
 
 #endif

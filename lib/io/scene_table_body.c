@@ -78,6 +78,14 @@ static const vsc_row vsc_pair_group_rows[] = {
 };
 GROUP(, vsc_pair_group, -1, .size = sizeof(vsc_pair_def));
 
+static const vsc_row vsc_prony_group_rows[] = {
+    {"modulus", NUMBER(vsc_prony_def, modulus), .needed = VSC_ALWAYS, .text = "0.3",
+     .meaning = "part of the instantaneous stress; all together below 1"},
+    {"time", QUANTITY(vsc_prony_def, time, VSC_TIME), .needed = VSC_ALWAYS, .text = "100 ms",
+     .meaning = "in which it falls to 1/e"},
+};
+GROUP(, vsc_prony_group, -1, .size = sizeof(vsc_prony_def));
+
 static const vsc_row vsc_inclusion_group_rows[] = {
     {"material", NAME(vsc_inclusion_def, material), .needed = VSC_ALWAYS, .text = "vein",
      .meaning = "name of the other material"},

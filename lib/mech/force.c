@@ -7,6 +7,7 @@
 #include "mech/kernel.h"
 #include "mech/loads.h"
 #include "mech/patch_nodes.h"
+#include "mech/prony.h"
 #include "mech/smoothed.h"
 #include "model/law_volume.h"
 
@@ -196,6 +197,8 @@ static void patch_force(void *context, size_t p, int thread)
                                   : prepare(e, patch, &local, &choice);
   vsc_patch_kernel *kernel = vsc_force_kernel(&choice);
   if (kernel != NULL) kernel(&work);
+  if (e->model->branch_count > 0)
+    vsc_prony_force(e->model, patch, e->scratch->prony, e->x, local.f);
   vsc_put_forces(patch, local.f, e->force, e->scratch->partial);
 }
 

@@ -12,6 +12,7 @@
 #include "mech/energies.h"
 #include "mech/force.h"
 #include "mech/loads.h"
+#include "mech/prony.h"
 #include "model/law_volume.h"
 
 vsc_status vsc_ledger_create(const vsc_model *model, vsc_ledger **ledger, vsc_error *error)
@@ -260,6 +261,7 @@ void vsc_observe(const vsc_model *model, vsc_state *state, vsc_ledger *ledger, b
   for (size_t s = 0; s < model->moved_count; s++) totals->support_work += state->moved[s].work;
   totals->springs = vsc_loads_energy(model, state->x);
   totals->dissipation += vsc_loads_dissipation(model, state->v);
+  totals->prony_work = vsc_prony_work(model, state);
   if (model->terms.nodal_volume) observe_groups(model, state, totals);
   const double pushed = vsc_loads_pressure_work(model, state->x, state->time, ledger->push);
   if (ledger->calls > 0 && !resume) {
@@ -277,5 +279,6 @@ void vsc_observe(const vsc_model *model, vsc_state *state, vsc_ledger *ledger, b
 double vsc_balance_error(const vsc_ledger *ledger, const vsc_totals *totals)
 {
   return stored_and_kinetic(totals) - ledger->start - ledger->active - ledger->pressure +
-         ledger->dissipated - totals->contact_work + totals->contact_lost - totals->support_work;
+         ledger->dissipated - totals->contact_work + totals->contact_lost + totals->prony_work -
+         totals->support_work;
 }

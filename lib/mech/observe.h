@@ -32,6 +32,7 @@ typedef struct vsc_totals {
   double contact_work;   // done by moving obstacles since the start, uJ
   double contact_lost;   // in impacts and friction since the start, uJ
   double support_work;   // done by moving supports since the start, uJ
+  double prony_work;     // taken by Prony series since the start (mech/prony.h), uJ
   double active_work;  // done by active tension since the last call on the same ledger, uJ
 } vsc_totals;
 

@@ -7,6 +7,7 @@
 #include "base/hash.h"
 #include "base/mem.h"
 #include "base/parallel.h"
+#include "mech/prony.h"
 #include "mech/smoothed.h"
 
 static bool allocate(const vsc_model *model, vsc_state *state)
@@ -41,7 +42,8 @@ static bool allocate(const vsc_model *model, vsc_state *state)
          VSC_NEW(state->moved, model->moved_count) &&
          VSC_NEW(state->kept_pressure, model->kept.count) &&
          VSC_NEW(state->former_x, remembers ? 4 * n : 0) &&
-         VSC_NEW(state->former_v, remembers ? 4 * n : 0);
+         VSC_NEW(state->former_v, remembers ? 4 * n : 0) &&
+         VSC_NEW(state->prony, vsc_prony_size(model));
 }
 
 static bool allocate_multipliers(const vsc_model *model, vsc_scratch *scratch)
@@ -59,6 +61,7 @@ vsc_status vsc_state_create(const vsc_model *model, vsc_state **state, vsc_error
     vsc_state_free(made);
     return vsc_fail_memory(error, "the state of the simulation");
   }
+  made->scratch.prony = made->prony;
   memcpy(made->x, model->rest, 4 * model->node_count * sizeof *made->x);
   *state = made;
   return VSC_OK;
@@ -80,6 +83,7 @@ void vsc_state_free(vsc_state *state)
   vsc_free(state->kept_pressure);
   vsc_free(state->former_x);
   vsc_free(state->former_v);
+  vsc_free(state->prony);
   if (state->keeper != NULL) state->release_keeper(state->keeper);
   if (state->solver != NULL) state->release_solver(state->solver);
   vsc_free(state->limit.mode);

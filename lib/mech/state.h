@@ -33,6 +33,7 @@ typedef struct vsc_scratch {
   // smoothed tets: F of each slot, [slot][column][4], dF/dt (with damping), and P_e of each edge likewise, kPa
   double *gradient, *rate, *edge_stress;
   double *predicted;       // node_count x 4: velocity at the end of the step, when there is damping
+  const double *prony;      // the state's: branches of Prony series
   double *node_multiplier;  // node_count: added to the pressure of each node's group, kPa; NULL but with
                             // solve.incompressible
   double *pack_multiplier;  // pack_count x 4: the same of each element that shares its volume among its
@@ -82,6 +83,7 @@ typedef struct vsc_state {
   double former_step;         // scheme BDF2: the step before, 0: none yet, ms
   double *former_x;           // node_count x 4: position before it, mm; likewise, owned
   double *former_v;           // node_count x 4: velocity before it, mm/ms; likewise, owned
+  double *prony;          // vsc_prony_size: branches of Prony series (mech/prony.h); owned
   void *solver;           // memory of the method (solve/solve.c), made when it starts
   void (*release_solver)(void *solver);
   vsc_limit limit;

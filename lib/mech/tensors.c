@@ -9,6 +9,7 @@
 #include "base/vec3.h"
 #include "mech/element.h"
 #include "mech/force.h"
+#include "mech/prony.h"
 #include "model/law.h"
 #include "model/law_viscous.h"
 #include "model/law_volume.h"
@@ -163,6 +164,12 @@ static pack_tensors stress_of(const vsc_patch_work *work, const vsc_model *model
                                           vsc_rest_stress(vsc_splat(work->material->rest_shear), J[q]));
     if (work->w != NULL) vsc_pack_axes(model, patch, k, q, state->v, rate);
     stress_on_frame(&in, g[q], work->w != NULL ? rate : NULL, S);
+    if (work->material->branch_count > 0) {
+      vsc_wide relaxed[6];
+      const size_t frame = patch->first_frame + place * (size_t)frames + (size_t)q;
+      vsc_prony_stress(model, work->material, state->prony, frame, relaxed);
+      for (int i = 0; i < 6; i++) S[i] += relaxed[i];
+    }
     in_deformed_frame(g[q], seen);
     add_products(V, S, seen, sum.fiber);
     add_products(V, S, g[q], sum.global);

@@ -168,6 +168,8 @@ static vsc_status copy_material(const vsc_material_def *def, const vsc_definitio
   material->law = def->law;
   material->damped = is_damped(def);
   if (vsc_law_is_of_strain(def->law)) copy_moduli(def, definition->volume, material);
+  material->branch_count = def->prony_count;
+  for (size_t k = 0; k < def->prony_count; k++) material->branches[k] = def->prony[k];
   if (def->law == VSC_LAW_SPRINGS) copy_axes(def, material, model);
   copy_law(def, material);
   complete_stabilization(definition, model, material);
@@ -206,6 +208,7 @@ static vsc_status build_materials(const vsc_definition *definition, vsc_model *m
     model->terms.damping |= material->damped;
     model->terms.paper |= material->law == VSC_LAW_PAPER;
     model->terms.general |= has_coupling(material) || material->viscosity > 0;
+    if (material->branch_count > model->branch_count) model->branch_count = material->branch_count;
     if (material->active == VSC_ACTIVE_NONE) continue;
     if (model->terms.active != VSC_ACTIVE_NONE && model->terms.active != material->active)
       return vsc_fail(

@@ -79,6 +79,7 @@ static void free_material(vsc_material_def *material)
   vsc_free(material->axes);
   vsc_free(material->pairs);
   vsc_free(material->inclusions);
+  vsc_free(material->prony);
 }
 
 void vsc_definition_free(vsc_definition *definition)

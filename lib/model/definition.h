@@ -164,6 +164,14 @@ typedef struct vsc_inclusion_def {
   char fraction_array[VSC_NAME];  // element array of phi in [0, 1]
 } vsc_inclusion_def;
 
+enum { VSC_MOST_BRANCHES = 8 };  // of a Prony series
+
+// A branch of a Prony series (mech/prony.h): a part of the law's stress, and the time in which it relaxes.
+typedef struct vsc_prony_def {
+  double modulus;  // g, part of the instantaneous stress
+  double time;     // tau, ms
+} vsc_prony_def;
+
 // A tissue. Springs law (Bourguignon & Cani 2000, energy form) on the frame axes g_f, g_s, g_n with
 // u_a = g_a/|g_a|, c_ab = u_a . u_b:
 //   psi = sum_a E_a (|g_a| - 1)^2 / 2 + sum_{a<b} [G_ab c_ab^2 / 2 + H_ab (|g_a| - 1) (|g_b| - 1)]
@@ -198,6 +206,8 @@ typedef struct vsc_material_def {
   vsc_pair_def *pairs;          // owned
   size_t inclusion_count;
   vsc_inclusion_def *inclusions;  // owned
+  size_t prony_count;             // laws of strain: branches of a Prony series
+  vsc_prony_def *prony;           // owned
 } vsc_material_def;
 
 // A sheet of tissue on a surface (a capsule, a valve, cloth): each triangle has two axes in its

@@ -6,6 +6,7 @@
 
 #include "model/definition.h"
 #include "model/law_constants.h"
+#include "model/prony_check.h"
 
 static const char boundary_name[] = "boundary";
 
@@ -458,6 +459,7 @@ vsc_status vsc_definition_check(const vsc_definition *d, vsc_error *error)
        "describe at least one material, or a membrane");
   for (size_t i = 0; i < d->material_count; i++) check_material(&c, i, &d->materials[i]);
   for (size_t i = 0; i < d->material_count; i++) check_regions(&c, d, i);
+  if (c.status == VSC_OK) c.status = vsc_prony_check(d, error);
   check_smoothing(&c, d);
   check_selectors(&c, "surfaces", d->surfaces, d->surface_count);
   check_selectors(&c, "node_sets", d->sets, d->set_count);

@@ -40,10 +40,10 @@ static vsc_status find_inclusions(const vsc_mesh *mesh, const vsc_definition *de
                       own->inclusions[k].material);
     const vsc_material_def *it = &definition->materials[other];
     if (it->law != VSC_LAW_SPRINGS || it->inclusion_count > 0 || it->axis_count > 0 ||
-        it->pair_count > 0 || it->active.kind != VSC_ACTIVE_NONE)
+        it->pair_count > 0 || it->active.kind != VSC_ACTIVE_NONE || it->prony_count > 0)
       return vsc_fail(error, VSC_INPUT,
                       "%s.material: '%s' cannot be mixed in: an inclusion is a passive material of "
-                      "law springs without further axes or inclusions",
+                      "law springs without further axes, inclusions or a Prony series",
                       key, it->name);
     found[k].other = other;
     const vsc_status status = vsc_terms_element_values(mesh, own->inclusions[k].fraction_array, key,

@@ -142,6 +142,8 @@ typedef struct vsc_material {
   vsc_invariants_def invariants;  // laws MOONEY_RIVLIN and VERONDA_WESTMANN
   size_t first_axis, axis_count;  // in the model's axes
   size_t first_pair, pair_count;  // in the model's pairs
+  size_t branch_count;            // of its Prony series
+  vsc_prony_def branches[VSC_MOST_BRANCHES];
 } vsc_material;
 
 // A block of elements, neighbours in space, of one family and one material. Its nodes are numbered
@@ -291,6 +293,7 @@ typedef struct vsc_model {
   vsc_axis *axes;  // further axes of all materials
   size_t pair_count;
   vsc_pair *pairs;
+  size_t branch_count;  // most branches of any material's Prony series
   size_t pressure_count;
   vsc_pressure *pressures;
   size_t robin_count;

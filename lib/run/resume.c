@@ -3,10 +3,11 @@
 
 #include "base/mem.h"
 #include "io/checkpoint.h"
+#include "mech/prony.h"
 #include "run/job.h"
 
 // Scalars of a checkpoint, in the order of list_scalars.
-enum { CLOCK = 0, LIMIT = 2, WORKS = 8, WATCH = 13, SCALARS = 18, BLOCKS = 19 };
+enum { CLOCK = 0, LIMIT = 2, WORKS = 8, WATCH = 13, SCALARS = 18, BLOCKS = 20 };
 
 static void list_scalars(vsc_job *job, double *places[SCALARS])
 {
@@ -84,6 +85,7 @@ static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[
       {"former_step", "ms", former_nodes(job) > 0, 1, &state->former_step},
       {"moved_supports", "1, 1/ms, mN, uJ, mN ms, mN ms, ms", job->problem->model->moved_count,
        sizeof *state->moved / sizeof(double), (double *)state->moved},
+      {"prony", "1, kPa, uJ", vsc_prony_size(job->problem->model), 1, state->prony},
       {"time_and_steps", "ms, 1", LIMIT - CLOCK, 1, scalars + CLOCK},
       {"step_limit", "1/ms^2, ms, ms, ms, 1, ms", WORKS - LIMIT, 1, scalars + LIMIT},
       {"works", "uJ, uJ, uJ, uJ, 1", WATCH - WORKS, 1, scalars + WORKS},
@@ -128,13 +130,14 @@ static void list_arrays(vsc_job *job, double *arrays[4])
   memcpy(arrays, list, sizeof list);
 }
 
-// Numbers of the sums of obstacles and of moving supports, and of what nodes remember of contact.
+// Numbers of the sums of obstacles and of moving supports, of what nodes remember of contact, and of
+// the branches of Prony series.
 static size_t sums_size(const vsc_job *job)
 {
   const vsc_model *model = job->problem->model;
   return (model->obstacle_count * sizeof *job->state->contact +
           model->moved_count * sizeof *job->state->moved) / sizeof(double) +
-         12 * contact_nodes(job);
+         12 * contact_nodes(job) + vsc_prony_size(model);
 }
 
 // Copies these to `memory`, or back from it.
@@ -143,12 +146,13 @@ static void copy_sums(vsc_job *job, double *memory, bool back)
   vsc_state *state = job->state;
   const vsc_model *model = job->problem->model;
   const size_t nodes = 4 * contact_nodes(job);
-  double *const arrays[5] = {state->former, state->pending, state->contact_normal,
-                             (double *)state->contact, (double *)state->moved};
-  const size_t counts[5] = {nodes, nodes, nodes,
+  double *const arrays[6] = {state->former, state->pending, state->contact_normal,
+                             (double *)state->contact, (double *)state->moved, state->prony};
+  const size_t counts[6] = {nodes, nodes, nodes,
                             model->obstacle_count * sizeof *state->contact / sizeof(double),
-                            model->moved_count * sizeof *state->moved / sizeof(double)};
-  for (int k = 0; k < 5; memory += counts[k++])
+                            model->moved_count * sizeof *state->moved / sizeof(double),
+                            vsc_prony_size(model)};
+  for (int k = 0; k < 6; memory += counts[k++])
     memcpy(back ? arrays[k] : memory, back ? memory : arrays[k], counts[k] * sizeof *memory);
 }
 

@@ -39,6 +39,7 @@ static void put_energies(const vsc_model *model, vsc_watch *watch)
   put(watch, "mJ", MJ * ledger->active, "work_active", "");
   put(watch, "mJ", MJ * ledger->pressure, "work_pressure", "");
   put(watch, "mJ", MJ * ledger->dissipated, "dissipated", "");
+  if (model->branch_count > 0) put(watch, "mJ", MJ * t->prony_work, "work_prony", "");
   put(watch, "mJ", MJ * vsc_balance_error(ledger, t), "balance_error", "");
 }
 

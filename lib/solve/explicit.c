@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "mech/force.h"
+#include "mech/prony.h"
 #include "mech/step_limit.h"
 #include "solve/contact.h"
 #include "solve/keep_volume.h"
@@ -112,6 +113,7 @@ vsc_status vsc_steps(const vsc_model *model, vsc_state *state, double dt, double
     const vsc_status status = restrain(model, state, dt, k == 1, error);
     if (status != VSC_OK) return status;
     if (model->obstacle_count > 0) vsc_contact_account(model, state);
+    if (model->branch_count > 0) vsc_prony_step(model, state, dt);
     vsc_force(model, state->x, velocity, state->time, &state->scratch, state->force);
     if (model->moved_count > 0) vsc_moving_account(model, state, dt, k == count);
     vsc_parallel_for(pieces, k < count ? kick_and_drift : kick, &m);
