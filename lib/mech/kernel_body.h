@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The text of the kernels, included by one source file per instruction set. KERNEL_SET names it.
-// Here: linear tets under law SPRINGS. Other cells are in kernel_solid.h, other laws of strain in
-// kernel_law.h, the laws that are there to be compared with in kernel_paper.h, membranes in
+// Here: linear tets under law SPRINGS. Other cells and other laws of strain are in kernel_law.h, the laws that are there to be compared with in kernel_paper.h, membranes in
 // kernel_surface.h.
 #include <string.h>
 
@@ -46,12 +45,12 @@ FORCE_KERNELS(1, 2)
 const vsc_kernels KERNEL_SET = {
     .name = KERNEL_NAME,
     .tets = {TABLE(0), TABLE(1)},
-    .solids = {{force_hexes, force_wedges, force_pyramids, force_tets10},
-               {force_damped_hexes, force_damped_wedges, force_damped_pyramids,
-                force_damped_tets10}},
+    .solids = {{springs_hexes, springs_wedges, springs_pyramids, springs_tets10},
+               {damped_springs_hexes, damped_springs_wedges, damped_springs_pyramids,
+                damped_springs_tets10}},
     .laws = {{law_tets, law_hexes, law_wedges, law_pyramids, law_tets10},
-             {law_damped_tets, law_damped_hexes, law_damped_wedges, law_damped_pyramids,
-              law_damped_tets10}},
+             {damped_law_tets, damped_law_hexes, damped_law_wedges, damped_law_pyramids,
+              damped_law_tets10}},
     .paper_tets = {force_paper_tets, force_damped_paper_tets},
     .paper_hexes = {force_paper_hexes, force_damped_paper_hexes},
     .springs = {force_springs, force_damped_springs},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hexahedra, wedges, pyramids and quadratic tets under law SPRINGS: several frames that share one volume ratio and
-// one pressure (mean dilatation). Internal to mech; included by kernel_body.h.
+// Cells with several frames, which share one volume ratio and one pressure (mean dilatation):
+// hexahedra, wedges, pyramids, quadratic tets. What their kernels are made of, and their stress under
+// law SPRINGS. Internal to mech; included by kernel_body.h.
 #ifndef VSC_MECH_KERNEL_SOLID_H
 #define VSC_MECH_KERNEL_SOLID_H
 
@@ -134,9 +135,36 @@ VSC_INLINE void solid_axes(const vsc_frame *frame, const vsc_wide3 h[3], vsc_wid
     g[a] = vsc_wide_combine(frame->T[a][0], h[0], frame->T[a][1], h[1], frame->T[a][2], h[2]);
 }
 
-// U'(J) of the element: J = sum_q V_q det G_q / sum_q V_q. The axes of all frames come back in g.
-VSC_INLINE vsc_wide shared_pressure(const vsc_frame *frames, int points, vsc_wide modulus,
-                                    vsc_wide3 (*h)[3], vsc_wide3 (*g)[3])
+// A pack of cells opened for its forces or its tangent.
+typedef struct opened_pack {
+  const vsc_frame *frames;
+  const uint16_t (*node)[VSC_WIDTH];
+  vsc_wide3 h[VSC_MOST_POINTS][3];      // derivatives of positions at all points
+  vsc_wide3 speed[VSC_MOST_POINTS][3];  // of velocities, when they count
+} opened_pack;
+
+VSC_INLINE void open_derivatives(const vsc_patch_work *work, const opened_pack *pack, int corners,
+                                 int points, const double *nodes, vsc_wide3 (*h)[3])
+{
+  vsc_wide3 x[VSC_MOST_CORNERS];
+  for (int c = 0; c < corners; c++) x[c] = gather_corner(pack->node[c], nodes);
+  derivatives(work->rule, corners, points, x, h);
+}
+
+VSC_INLINE void open_pack(const vsc_patch_work *work, size_t k, int corners, int points,
+                          bool damping, opened_pack *pack)
+{
+  const size_t bytes = vsc_pack_bytes(corners, points);
+  pack->frames = (const vsc_frame *)((const char *)work->packs + k * bytes);
+  pack->node = (const uint16_t(*)[VSC_WIDTH])(pack->frames + points);
+  open_derivatives(work, pack, corners, points, work->x, pack->h);
+  if (damping) open_derivatives(work, pack, corners, points, work->w, pack->speed);
+}
+
+// J = sum_q V_q det G_q / sum_q V_q, 1 in an empty place. The axes of all frames come back in g, the
+// volume (1 in an empty place) in *whole.
+VSC_INLINE vsc_wide mean_ratio(const vsc_frame *frames, int points, const vsc_wide3 (*h)[3],
+                               vsc_wide3 (*g)[3], vsc_wide *whole)
 {
   vsc_wide volume = vsc_splat(0), rest = vsc_splat(0);
   for (int q = 0; q < points; q++) {
@@ -144,10 +172,18 @@ VSC_INLINE vsc_wide shared_pressure(const vsc_frame *frames, int points, vsc_wid
     volume += frames[q].V * vsc_wide_dot(g[q][0], vsc_wide_cross(g[q][1], g[q][2]));
     rest += frames[q].V;
   }
-  // an empty place has no volume
   const vsc_wide_mask full = rest > 0;
-  const vsc_wide J = vsc_select(full, volume, vsc_splat(1)) / vsc_select(full, rest, vsc_splat(1));
-  return vsc_volume_stress(modulus, J);
+  *whole = vsc_select(full, rest, vsc_splat(1));
+  return vsc_select(full, volume, vsc_splat(1)) / *whole;
+}
+
+// The mean of the four nodes' pressures, of tets that share their volume.
+VSC_INLINE vsc_wide nodes_pressure(const vsc_patch_work *work, const uint16_t (*node)[VSC_WIDTH])
+{
+  vsc_wide pressure = vsc_splat(0);
+  for (int c = 0; c < 4 && work->shares_volume; c++)
+    for (int l = 0; l < VSC_WIDTH; l++) pressure[l] += 0.25 * work->pressure[node[c][l]];
+  return pressure;
 }
 
 // P_a of one frame: springs, damping, activity, further axes, and the volume's pressure.
@@ -171,45 +207,5 @@ VSC_INLINE void solid_stress(const vsc_patch_work *work, size_t k, const vsc_mix
   const vsc_wide p = pressure + vsc_volume_stress(moduli->stabilization, J);
   for (int a = 0; a < 3; a++) P[a] = vsc_wide_add(P[a], vsc_wide_scale(p, cofactor[a]));
 }
-
-VSC_INLINE void solid_kernel(const vsc_patch_work *work, int corners, int points, bool damping)
-{
-  const size_t bytes = vsc_pack_bytes(corners, points);
-  for (size_t k = 0; k < work->pack_count; k++) {
-    const vsc_frame *frames = (const vsc_frame *)((const char *)work->packs + k * bytes);
-    const uint16_t(*node)[VSC_WIDTH] = (const uint16_t(*)[VSC_WIDTH])(frames + points);
-    const vsc_mixture moduli = moduli_of(work, k, true);
-    vsc_wide3 x[VSC_MOST_CORNERS], f[VSC_MOST_CORNERS];
-    vsc_wide3 h[VSC_MOST_POINTS][3], speed[VSC_MOST_POINTS][3], g[VSC_MOST_POINTS][3];
-    for (int c = 0; c < corners; c++) x[c] = gather_corner(node[c], work->x);
-    derivatives(work->rule, corners, points, x, h);
-    if (damping) {
-      for (int c = 0; c < corners; c++) x[c] = gather_corner(node[c], work->w);
-      derivatives(work->rule, corners, points, x, speed);
-    }
-    const vsc_wide pressure =
-        shared_pressure(frames, points, moduli.volume_modulus, h, g) + multiplier_of(work, k);
-    for (int q = 0; q < points; q++) {
-      const vsc_frame *frame = &frames[q];
-      vsc_wide3 rate[3], P[3];
-      if (damping) solid_axes(frame, speed[q], rate);
-      solid_stress(work, k, &moduli, g[q], rate, damping, pressure, P);
-      solid_flux(frame, P, h[q]);
-    }
-    solid_back(work->rule, corners, points, h, f);
-    for (int c = 0; c < corners; c++) scatter_corner(node[c], f[c], work->f);
-  }
-}
-
-#define SOLID_KERNELS(name, corners, points)                                                       \
-  static void force_##name(const vsc_patch_work *work) { solid_kernel(work, corners, points, 0); } \
-  static void force_damped_##name(const vsc_patch_work *work)                                      \
-  {                                                                                                \
-    solid_kernel(work, corners, points, 1);                                                        \
-  }
-SOLID_KERNELS(hexes, 8, 8)
-SOLID_KERNELS(wedges, 6, 6)
-SOLID_KERNELS(pyramids, 5, 8)
-SOLID_KERNELS(tets10, 10, 4)
 
 #endif

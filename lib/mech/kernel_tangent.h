@@ -156,52 +156,29 @@ typedef struct shared_volume {
   vsc_wide pressure, curvature;
 } shared_volume;
 
-VSC_INLINE shared_volume share_volume(const vsc_patch_work *work, const vsc_frame *frames,
-                                      const uint16_t (*node)[VSC_WIDTH], int corners, int points,
-                                      const vsc_mixture *moduli, vsc_wide3 (*h)[3],
-                                      vsc_wide3 (*g)[3])
+VSC_INLINE shared_volume share_volume(const vsc_patch_work *work, const opened_pack *pack,
+                                      int corners, int points, vsc_wide modulus, vsc_wide3 (*g)[3])
 {
-  shared_volume shared = {vsc_splat(0), vsc_splat(0)};
-  if (corners == 4) {
-    solid_axes(&frames[0], h[0], g[0]);
-    if (!work->shares_volume) return shared;
-    for (int c = 0; c < 4; c++)
-      for (int l = 0; l < VSC_WIDTH; l++) shared.pressure[l] += 0.25 * work->pressure[node[c][l]];
-    return shared;
-  }
-  vsc_wide volume = vsc_splat(0), rest = vsc_splat(0);
-  for (int q = 0; q < points; q++) {
-    solid_axes(&frames[q], h[q], g[q]);
-    volume += frames[q].V * vsc_wide_dot(g[q][0], vsc_wide_cross(g[q][1], g[q][2]));
-    rest += frames[q].V;
-  }
-  const vsc_wide_mask full = rest > 0;
-  const vsc_wide whole = vsc_select(full, rest, vsc_splat(1));
-  const vsc_wide J = vsc_select(full, volume, vsc_splat(1)) / whole;
-  shared.pressure = vsc_volume_stress(moduli->volume_modulus, J);
-  shared.curvature = vsc_volume_curvature(moduli->volume_modulus, J) / whole;
-  return shared;
+  vsc_wide whole;
+  const vsc_wide J = mean_ratio(pack->frames, points, pack->h, g, &whole);
+  if (corners == 4) return (shared_volume){nodes_pressure(work, pack->node), vsc_splat(0)};
+  return (shared_volume){vsc_volume_stress(modulus, J), vsc_volume_curvature(modulus, J) / whole};
 }
 
 // The axes of all frames at the iterate before, and the pressure that it foretold for the cell.
-VSC_INLINE vsc_wide foretell_pressure(const vsc_patch_work *work, const vsc_frame *frames,
-                                      const uint16_t (*node)[VSC_WIDTH], int corners, int points,
-                                      vsc_wide modulus, vsc_wide3 (*g)[3], vsc_wide3 (*former)[3])
+VSC_INLINE vsc_wide foretell_pressure(const vsc_patch_work *work, const opened_pack *pack,
+                                      int corners, int points, vsc_wide modulus, vsc_wide3 (*g)[3],
+                                      vsc_wide3 (*former)[3])
 {
-  vsc_wide3 x[VSC_MOST_CORNERS], h[VSC_MOST_POINTS][3];
-  vsc_wide volume = vsc_splat(0), change = vsc_splat(0), rest = vsc_splat(0);
-  for (int c = 0; c < corners; c++) x[c] = gather_corner(node[c], work->before);
-  derivatives(work->rule, corners, points, x, h);
+  vsc_wide3 h[VSC_MOST_POINTS][3];
+  vsc_wide change = vsc_splat(0), whole;
+  open_derivatives(work, pack, corners, points, work->before, h);
+  const vsc_wide J = mean_ratio(pack->frames, points, h, former, &whole);
   for (int q = 0; q < points; q++) {
     vsc_wide step;
-    solid_axes(&frames[q], h[q], former[q]);
-    volume += frames[q].V * foretell_ratio(former[q], g[q], &step);
-    change += frames[q].V * step;
-    rest += frames[q].V;
+    foretell_ratio(former[q], g[q], &step);
+    change += pack->frames[q].V * step;
   }
-  const vsc_wide_mask full = rest > 0;
-  const vsc_wide whole = vsc_select(full, rest, vsc_splat(1));
-  const vsc_wide J = vsc_select(full, volume, vsc_splat(1)) / whole;
   return vsc_volume_stress(modulus, J) + vsc_volume_curvature(modulus, J) * change / whole;
 }
 
@@ -219,31 +196,19 @@ VSC_INLINE vsc_wide own_pressure(vsc_wide modulus, vsc_wide rest, vsc_wide J, co
 VSC_INLINE void tangent_kernel(const vsc_patch_work *work, size_t k, int corners, int points,
                                vsc_wide *K)
 {
-  const size_t bytes = vsc_pack_bytes(corners, points);
-  const vsc_frame *frames = (const vsc_frame *)((const char *)work->packs + k * bytes);
-  const uint16_t(*node)[VSC_WIDTH] = (const uint16_t(*)[VSC_WIDTH])(frames + points);
-  const vsc_law_input in = {.material = work->material,
-                            .axes = work->axes,
-                            .pairs = work->pairs,
-                            .moduli = moduli_of(work, k, true),
-                            .activation = work->activation[k * work->activation_stride]};
-  vsc_wide3 x[VSC_MOST_CORNERS], h[VSC_MOST_POINTS][3], g[VSC_MOST_POINTS][3];
-  vsc_wide3 speed[VSC_MOST_POINTS][3], b[VSC_MOST_CORNERS];
-  for (int c = 0; c < corners; c++) x[c] = gather_corner(node[c], work->x);
-  derivatives(work->rule, corners, points, x, h);
-  if (work->w != NULL) {
-    for (int c = 0; c < corners; c++) x[c] = gather_corner(node[c], work->w);
-    derivatives(work->rule, corners, points, x, speed);
-  }
-  shared_volume shared = share_volume(work, frames, node, corners, points, &in.moduli, h, g);
+  const vsc_law_input in = law_input_of(work, k);
+  opened_pack pack;
+  vsc_wide3 g[VSC_MOST_POINTS][3], b[VSC_MOST_CORNERS];
+  open_pack(work, k, corners, points, work->w != NULL, &pack);
+  const vsc_frame *frames = pack.frames;
+  shared_volume shared = share_volume(work, &pack, corners, points, in.moduli.volume_modulus, g);
   vsc_wide3 former[VSC_MOST_POINTS][3];
   if (work->before != NULL) {
-    const vsc_wide foretold = foretell_pressure(work, frames, node, corners, points,
+    const vsc_wide foretold = foretell_pressure(work, &pack, corners, points,
                                                 in.moduli.volume_modulus, g, former);
     if (corners != 4) shared.pressure = foretold;
   }
   shared.pressure += multiplier_of(work, k);
-  // a tet's own volume modulus, or that of each frame beside the shared volume
   const vsc_wide own = corners == 4 ? in.moduli.element_modulus : in.moduli.stabilization;
   for (int i = 0; i < 9 * corners * (corners + 1) / 2; i++) K[i] = vsc_splat(0);
   for (int c = 0; c < corners; c++) b[c] = wide_zero();
@@ -251,7 +216,7 @@ VSC_INLINE void tangent_kernel(const vsc_patch_work *work, size_t k, int corners
     tangent_frame frame;
     vsc_law_answer answer;
     vsc_wide3 rate[3];
-    if (work->w != NULL) solid_axes(&frames[q], speed[q], rate);
+    if (work->w != NULL) solid_axes(&frames[q], pack.speed[q], rate);
     open_frame(&frames[q], work->rule->D[q], corners, g[q], &frame);
     const vsc_wide3 *before = work->before != NULL ? former[q] : NULL;
     // smoothed tets leave their law to the edges
