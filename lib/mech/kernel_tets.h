@@ -5,6 +5,18 @@
 
 #include "mech/kernel_common.h"
 
+// Packs that go through each stage together. One pack is a chain of some 170 cycles (gather, roots,
+// a division, scatter) of 590 instructions, more than a processor looks ahead: stage by stage,
+// packs overlap.
+enum { TOGETHER = 8, CACHE_LINE = 64 };
+
+// The processor fetches a pack ahead of its use: its own prediction stops where a stage ends.
+VSC_INLINE void fetch_pack(const vsc_pack *pack)
+{
+  for (size_t byte = 0; byte < sizeof *pack; byte += CACHE_LINE)
+    __builtin_prefetch((const char *)pack + byte);
+}
+
 // Edges x_i - x_0 of four tets, i = 1, 2, 3, from node x 4 numbers.
 VSC_INLINE void gather_edges(const vsc_pack *pack, const double *nodes, vsc_wide3 edge[3])
 {
@@ -69,34 +81,49 @@ VSC_INLINE void add_volume_stress(const vsc_pack *pack, vsc_wide modulus, const 
   for (int a = 0; a < 3; a++) P[a] = vsc_wide_add(P[a], vsc_wide_scale(p, cofactor[a]));
 }
 
+// P_a of pack k from its axes and their rates.
+VSC_INLINE void pack_stress(const vsc_patch_work *work, size_t k, const vsc_wide3 g[3],
+                            const vsc_wide3 rate[3], bool composed, bool damping,
+                            vsc_active_kind active, bool nodal, vsc_wide3 P[3])
+{
+  const vsc_pack *pack = (const vsc_pack *)work->packs + k;
+  const vsc_mixture moduli = moduli_of(work, k, composed);
+  const vsc_frame_axes frame = vsc_frame_of(g);
+  vsc_wide along[3] = {vsc_splat(0), vsc_splat(0), vsc_splat(0)};
+  // eta_a dg_a/dt . u_a
+  for (int a = 0; damping && a < 3; a++)
+    along[a] = moduli.damping[a] * vsc_wide_dot(rate[a], frame.u[a]);
+  vsc_wide activation = vsc_splat(0);
+  if (active != VSC_ACTIVE_NONE) activation = work->activation[k * work->activation_stride];
+  const vsc_springs law = springs_of(work->material, &moduli, active, activation);
+  // S += T f0 f0: P_f += T g_f
+  if (active == VSC_ACTIVE_TENSION)
+    along[0] += moduli.share * activation * work->material->tension * frame.length[0];
+  vsc_springs_stress(&law, &frame, along, P);
+  if (composed) add_more_axes(work, moduli.share, g, rate, damping, P);
+  add_volume_stress(pack, moduli.element_modulus, work->pressure, g, nodal, P);
+}
+
 VSC_INLINE void force_kernel(const vsc_patch_work *work, bool composed, bool damping,
                              vsc_active_kind active, bool nodal)
 {
-  const vsc_pack *packs = work->packs;
-  for (size_t k = 0; k < work->pack_count; k++) {
-    const vsc_pack *pack = &packs[k];
-    const vsc_mixture moduli = moduli_of(work, k, composed);
-    vsc_wide3 edge[3], g[3], rate[3], P[3];
-    vsc_wide along[3] = {vsc_splat(0), vsc_splat(0), vsc_splat(0)};
-    gather_edges(pack, work->x, edge);
-    frame_axes(pack, edge, g);
-    const vsc_frame_axes frame = vsc_frame_of(g);
-    if (damping) {
-      gather_edges(pack, work->w, edge);
-      frame_axes(pack, edge, rate);
-      // eta_a dg_a/dt . u_a
-      for (int a = 0; a < 3; a++) along[a] = moduli.damping[a] * vsc_wide_dot(rate[a], frame.u[a]);
+  vsc_wide3 edge[3], g[TOGETHER][3], rate[TOGETHER][3], P[TOGETHER][3];
+  for (size_t first = 0; first < work->pack_count; first += TOGETHER) {
+    const vsc_pack *packs = (const vsc_pack *)work->packs + first;
+    const size_t left = work->pack_count - first, count = left < TOGETHER ? left : TOGETHER;
+    for (size_t k = 0; k < count; k++) {
+      gather_edges(&packs[k], work->x, edge);
+      frame_axes(&packs[k], edge, g[k]);
     }
-    vsc_wide activation = vsc_splat(0);
-    if (active != VSC_ACTIVE_NONE) activation = work->activation[k * work->activation_stride];
-    const vsc_springs law = springs_of(work->material, &moduli, active, activation);
-    // S += T f0 f0: P_f += T g_f
-    if (active == VSC_ACTIVE_TENSION)
-      along[0] += moduli.share * activation * work->material->tension * frame.length[0];
-    vsc_springs_stress(&law, &frame, along, P);
-    if (composed) add_more_axes(work, moduli.share, g, rate, damping, P);
-    add_volume_stress(pack, moduli.element_modulus, work->pressure, g, nodal, P);
-    scatter_forces(pack, P, work->f);
+    for (size_t k = 0; damping && k < count; k++) {
+      gather_edges(&packs[k], work->w, edge);
+      frame_axes(&packs[k], edge, rate[k]);
+    }
+    for (size_t k = 0; k < count; k++) {
+      fetch_pack(&packs[k + TOGETHER]);
+      pack_stress(work, first + k, g[k], rate[k], composed, damping, active, nodal, P[k]);
+    }
+    for (size_t k = 0; k < count; k++) scatter_forces(&packs[k], P[k], work->f);
   }
 }
 
