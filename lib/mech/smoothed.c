@@ -45,7 +45,7 @@ static void patch_gradients(void *context, size_t p, int thread)
 void vsc_smoothed_gradients(const vsc_model *model, const double *x, const double *w,
                             vsc_scratch *scratch)
 {
-  pass it = {.model = model, .scratch = scratch, .x = x, .w = w};
+  pass it = {.model = model, .scratch = scratch, .x = x, .w = model->terms.damping ? w : NULL};
   vsc_parallel_for(model->patch_count, patch_gradients, &it);
 }
 
