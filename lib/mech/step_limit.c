@@ -48,7 +48,7 @@ static void stir_mode(const vsc_model *model, uint64_t seed, double *mode, doubl
 static double largest(const vsc_model *model, const double *d)
 {
   double most = 0;
-  for (size_t i = 0; i < 4 * model->node_count; i++) most = fmax(most, fabs(d[i]));
+  for (size_t i = 0; i < 4 * model->node_count; i++) most = fabs(d[i]) > most ? fabs(d[i]) : most;
   return most;
 }
 

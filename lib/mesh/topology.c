@@ -2,6 +2,7 @@
 #include "mesh/topology.h"
 
 #include <stdbool.h>
+#include <stdlib.h>
 
 #include "base/mem.h"
 
@@ -19,99 +20,146 @@ static void list_node_elements(const vsc_mesh *mesh, vsc_topology *topology)
   start[mesh->node_count] = corners;
 }
 
-// The nodes of a face.
-typedef struct face {
-  int count;
+// A face of an element by its nodes, ascending; a triangle has NO_NODE as its last.
+typedef struct side {
   uint32_t nodes[4];
-} face;
+  uint32_t element;
+  int number;
+} side;
 
-static face face_of(const vsc_mesh *mesh, size_t element, int number)
+#define NO_NODE UINT32_MAX
+
+static side side_of(const vsc_mesh *mesh, uint32_t element, int number)
 {
   const int *at = vsc_mesh_kind(mesh, element)->faces[number];
-  face f = {.count = at[3] < 0 ? 3 : 4};
-  for (int i = 0; i < f.count; i++) f.nodes[i] = vsc_mesh_corners(mesh, element)[at[i]];
-  return f;
+  const uint32_t *corners = vsc_mesh_corners(mesh, element);
+  side s = {.nodes = {NO_NODE, NO_NODE, NO_NODE, NO_NODE}, .element = element, .number = number};
+  for (int i = 0; i < 4 && at[i] >= 0; i++) {
+    const uint32_t node = corners[at[i]];
+    int place = i;
+    for (; place > 0 && s.nodes[place - 1] > node; place--) s.nodes[place] = s.nodes[place - 1];
+    s.nodes[place] = node;
+  }
+  return s;
 }
 
-// Corners of a face of a kind as a set of bits.
-static unsigned face_corners(const vsc_cell_kind *kind, int number)
+static int compare_nodes(const side *a, const side *b)
 {
-  unsigned set = 0;
   for (int i = 0; i < 4; i++)
-    if (kind->faces[number][i] >= 0) set |= 1u << kind->faces[number][i];
-  return set;
-}
-
-// How many corners the face of `element` has whose corners are just those that it shares with `f`;
-// 0 when there is no such face.
-static int common_face(const vsc_mesh *mesh, size_t element, const face *f)
-{
-  const vsc_cell_kind *kind = vsc_mesh_kind(mesh, element);
-  const uint32_t *corner = vsc_mesh_corners(mesh, element);
-  unsigned shared = 0;
-  int count = 0;
-  for (int i = 0; i < kind->corners; i++)
-    for (int k = 0; k < f->count; k++)
-      if (corner[i] == f->nodes[k]) {
-        shared |= 1u << i;
-        count++;
-      }
-  if (count < 3) return 0;
-  for (int number = 0; number < kind->face_count; number++)
-    if (face_corners(kind, number) == shared) return count;
+    if (a->nodes[i] != b->nodes[i]) return a->nodes[i] < b->nodes[i] ? -1 : 1;
   return 0;
 }
 
-// Finds the next element after `element`, in cyclic order, with the same face; says how many there
-// are.
-static int32_t across(const vsc_mesh *mesh, const vsc_topology *topology, size_t element,
-                      const face *f, int *sharing)
+static int compare_sides(const void *a, const void *b)
+{
+  const side *first = a, *second = b;
+  const int nodes = compare_nodes(first, second);
+  return nodes != 0 ? nodes : (first->element > second->element) - (first->element < second->element);
+}
+
+// Whether `node` is the smallest of a face, given as corners of an element with the nodes `corners`.
+static bool is_smallest(uint32_t node, const int *at, const uint32_t *corners)
+{
+  bool present = false;
+  for (int i = 0; i < 4 && at[i] >= 0; i++) {
+    if (corners[at[i]] < node) return false;
+    present |= corners[at[i]] == node;
+  }
+  return present;
+}
+
+// The sides of which `node` is the smallest: every face is listed at one node. `list` has room for all faces
+// of the node's elements.
+static size_t list_sides(const vsc_mesh *mesh, const vsc_topology *topology, uint32_t node, side *list)
+{
+  size_t count = 0;
+  for (size_t k = topology->node_start[node]; k < topology->node_start[node + 1]; k++) {
+    const uint32_t element = topology->node_elements[k];
+    const vsc_cell_kind *kind = vsc_mesh_kind(mesh, element);
+    const uint32_t *corners = vsc_mesh_corners(mesh, element);
+    for (int number = 0; number < kind->face_count; number++)
+      if (is_smallest(node, kind->faces[number], corners)) list[count++] = side_of(mesh, element, number);
+  }
+  return count;
+}
+
+static void sort_sides(side *list, size_t count)
+{
+  enum { FEW = 64 };
+  if (count > FEW) {
+    qsort(list, count, sizeof *list, compare_sides);
+    return;
+  }
+  for (size_t i = 1; i < count; i++) {
+    const side s = list[i];
+    size_t place = i;
+    for (; place > 0 && compare_sides(&list[place - 1], &s) > 0; place--) list[place] = list[place - 1];
+    list[place] = s;
+  }
+}
+
+// Sides with the same nodes are neighbours, each of the next in a cycle.
+static void join_sides(const side *list, size_t count, vsc_topology *topology)
+{
+  for (size_t first = 0, end; first < count; first = end) {
+    for (end = first + 1; end < count && compare_nodes(&list[first], &list[end]) == 0;) end++;
+    if (end - first > 2) topology->crowded_faces++;
+    for (size_t k = first; end - first > 1 && k < end; k++)
+      topology->neighbours[list[k].element][list[k].number] =
+          (int32_t)list[k + 1 < end ? k + 1 : first].element;
+  }
+}
+
+static bool find_neighbours(const vsc_mesh *mesh, vsc_topology *topology)
 {
   const size_t *start = topology->node_start;
-  uint32_t node = f->nodes[0];
-  for (int i = 1; i < f->count; i++)
-    if (start[f->nodes[i] + 1] - start[f->nodes[i]] < start[node + 1] - start[node])
-      node = f->nodes[i];
-  int32_t first = VSC_OUTSIDE, after = VSC_OUTSIDE;
-  *sharing = 0;
-  for (size_t k = start[node]; k < start[node + 1]; k++) {
-    const uint32_t other = topology->node_elements[k];
-    if (common_face(mesh, other, f) != f->count) continue;
-    (*sharing)++;
-    if (other == element) continue;
-    if (first < 0) first = (int32_t)other;
-    if (after < 0 && other > element) after = (int32_t)other;
+  size_t most = 0;
+  for (size_t n = 0; n < mesh->node_count; n++)
+    if (start[n + 1] - start[n] > most) most = start[n + 1] - start[n];
+  for (size_t e = 0; e < mesh->element_count; e++)
+    for (int i = 0; i < VSC_MOST_FACES; i++) topology->neighbours[e][i] = VSC_OUTSIDE;
+  side *list;
+  if (!VSC_NEW(list, VSC_MOST_FACES * most)) return false;
+  for (size_t n = 0; n < mesh->node_count; n++) {
+    const size_t count = list_sides(mesh, topology, (uint32_t)n, list);
+    sort_sides(list, count);
+    join_sides(list, count, topology);
   }
-  return after >= 0 ? after : first;
+  vsc_free(list);
+  return true;
 }
 
 // Whether a triangle of another element lies on a quadrilateral face: on any two opposite corners
-// of it, one is the triangle's.
-static bool is_split(const vsc_mesh *mesh, const vsc_topology *topology, const face *f)
+// of it, one is the triangle's, and all its nodes are the face's.
+static bool is_split(const vsc_mesh *mesh, const vsc_topology *topology, uint32_t element, int number)
 {
-  for (int i = 0; i < 3; i += 2)
-    for (size_t k = topology->node_start[f->nodes[i]]; k < topology->node_start[f->nodes[i] + 1];
-         k++)
-      if (common_face(mesh, topology->node_elements[k], f) == 3) return true;
+  const int *at = vsc_mesh_kind(mesh, element)->faces[number];
+  const side face = side_of(mesh, element, number);
+  for (int i = 0; i < 3; i += 2) {
+    const uint32_t node = vsc_mesh_corners(mesh, element)[at[i]];
+    for (size_t k = topology->node_start[node]; k < topology->node_start[node + 1]; k++) {
+      const uint32_t other = topology->node_elements[k];
+      for (int f = 0; f < vsc_mesh_kind(mesh, other)->face_count; f++) {
+        const side triangle = side_of(mesh, other, f);
+        int shared = 0;
+        for (int a = 0; a < 4; a++)
+          for (int b = 0; b < 4; b++) shared += triangle.nodes[a] != NO_NODE && triangle.nodes[a] == face.nodes[b];
+        if (triangle.nodes[3] == NO_NODE && shared == 3) return true;
+      }
+    }
+  }
   return false;
 }
 
-static void find_neighbours(const vsc_mesh *mesh, vsc_topology *topology)
+static void mark_split(const vsc_mesh *mesh, vsc_topology *topology)
 {
-  size_t crowded = 0;
-  for (size_t e = 0; e < mesh->element_count; e++)
-    for (int i = 0; i < VSC_MOST_FACES; i++) {
-      int32_t *other = &topology->neighbours[e][i];
-      *other = VSC_OUTSIDE;
-      if (i >= vsc_mesh_kind(mesh, e)->face_count) continue;
-      const face f = face_of(mesh, e, i);
-      int sharing;
-      *other = across(mesh, topology, e, &f, &sharing);
-      if (*other < 0 && f.count == 4 && is_split(mesh, topology, &f)) *other = VSC_SPLIT;
-      // Counted once, by the element from which the cycle starts again at a smaller number.
-      if (sharing > 2 && *other < (int32_t)e) crowded++;
-    }
-  topology->crowded_faces = crowded;
+  for (size_t e = 0; e < mesh->element_count; e++) {
+    const vsc_cell_kind *kind = vsc_mesh_kind(mesh, e);
+    for (int i = 0; i < kind->face_count; i++)
+      if (kind->faces[i][3] >= 0 && topology->neighbours[e][i] == VSC_OUTSIDE &&
+          is_split(mesh, topology, (uint32_t)e, i))
+        topology->neighbours[e][i] = VSC_SPLIT;
+  }
 }
 
 vsc_status vsc_topology_make(const vsc_mesh *mesh, vsc_topology *topology, vsc_error *error)
@@ -124,7 +172,11 @@ vsc_status vsc_topology_make(const vsc_mesh *mesh, vsc_topology *topology, vsc_e
     return vsc_fail_memory(error, "the mesh's topology");
   }
   list_node_elements(mesh, topology);
-  find_neighbours(mesh, topology);
+  if (!find_neighbours(mesh, topology)) {
+    vsc_topology_free(topology);
+    return vsc_fail_memory(error, "the mesh's topology");
+  }
+  mark_split(mesh, topology);
   return VSC_OK;
 }
 

@@ -122,10 +122,11 @@ vsc_status vsc_steps(const vsc_model *model, vsc_state *state, double dt, double
   return model->kept.count > 0 ? vsc_keep_volume_settle(model, state, error) : VSC_OK;
 }
 
-// The time at which the most is active, for the estimate before the first step.
-static double busiest_time(const vsc_model *model)
+// The time at which the most is active, for the estimate before the first step; that of the state where
+// nothing ever is.
+static double busiest_time(const vsc_model *model, const vsc_state *state)
 {
-  double busiest = 0, most = 0;
+  double busiest = state->time, most = 0;
   for (size_t m = 0; m < model->material_count; m++) {
     const vsc_curve *curve = &model->materials[m].curve;
     for (size_t k = 0; curve->values && k <= curve->intervals; k++)
@@ -140,9 +141,10 @@ static double busiest_time(const vsc_model *model)
 vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
 {
   vsc_supports_place(model, state->time, 1, state->x);
-  vsc_limit_refresh(model, state, busiest_time(model), FIRST_ITERATIONS);
+  const double busiest = busiest_time(model, state);
+  vsc_limit_refresh(model, state, busiest, FIRST_ITERATIONS);
   const double active_step = state->limit.step;
-  vsc_limit_refresh(model, state, state->time, FIRST_ITERATIONS);
+  if (busiest != state->time) vsc_limit_refresh(model, state, state->time, FIRST_ITERATIONS);
   const double stable = fmin(active_step, state->limit.step);
   if (!(stable > 0))
     return vsc_fail(error, VSC_NUMERICAL,
