@@ -254,6 +254,78 @@ static void a_load_too_large_is_told_and_leaves_the_last_good_state(void **state
   body_close(&body);
 }
 
+// A balance that a wrong tangent keeps from ever being found: the body's masses pull, and the tangent is
+// `stiff` times these, so that each step is `pull`/`stiff` along every axis.
+typedef struct wrong_balance {
+  const vsc_model *model;
+  double pull, stiff;
+} wrong_balance;
+
+static void wrong_residual(void *context, const double *x, double *r)
+{
+  (void)x;
+  const wrong_balance *w = context;
+  for (size_t i = 0; i < 4 * w->model->node_count; i++) r[i] = w->pull * w->model->mass[i / 4];
+}
+
+static void wrong_tangent(void *context, const double *x, const double *before, vsc_tangent *tangent)
+{
+  (void)x;
+  (void)before;
+  const wrong_balance *w = context;
+  vsc_block_matrix_clear(&tangent->matrix);
+  vsc_tangent_add_masses(w->model, tangent, w->stiff);
+}
+
+// Steps of 5e-15 of the body's size stand still, but the forces are all still there; where they are a
+// thousandth of those at work it is an end.
+static void standing_still_under_load_is_no_equilibrium(void **state)
+{
+  (void)state;
+  for (int part = 0; part < 2; part++) {
+    small_body body;
+    vsc_error error;
+    vsc_newton *newton;
+    int iterations;
+    open_bar(&body, 0);
+    assert_int_equal(vsc_newton_create(body.model, &newton, &error), VSC_OK);
+    const double size = vsc_body_size(body.model);
+    wrong_balance wrong = {body.model, 1, 1 / (5e-15 * size)};
+    const vsc_balance balance = {&wrong, wrong_residual, wrong_tangent};
+    wrong_residual(&wrong, NULL, body.state->force);
+    vsc_newton_begin(newton, body.state->force);
+    if (part == 1) newton->scale *= 1.1e3;
+    const vsc_status status =
+        vsc_newton_solve(newton, &balance, 1, 1, body.state->x, &iterations, &error);
+    assert_int_equal(status, part == 0 ? VSC_NUMERICAL : VSC_OK);
+    if (part == 0) assert_non_null(strstr(error.text, "the residual is"));
+    if (part == 1) assert_int_equal(iterations, 1);
+    vsc_newton_free(newton);
+    body_close(&body);
+  }
+}
+
+// What rounding leaves of forces is known with smoothed tets too, whose law is not in the matrix itself: to
+// the factor between edges' means and elements.
+static void rounding_knows_smoothed_laws(void **state)
+{
+  (void)state;
+  double floor[2];
+  for (int tets = VSC_TETS_PLAIN; tets <= VSC_TETS_SMOOTHED; tets++) {
+    small_body body;
+    body_open(&body, block_of(4, 2, 2, 1, 0.1), NO_VOLUME);
+    body_hold(&body, "x0", 1, 1, 1);
+    body.definition.tets = (vsc_tets_kind)tets;
+    body.definition.gravity[2] = -0.01;
+    body.definition.solve.kind = VSC_SOLVE_EQUILIBRIUM;
+    body_build(&body);
+    must_solve_to(&body, 1);
+    floor[tets] = vsc_solve_newton(body.model, body.state)->floor;
+    body_close(&body);
+  }
+  assert_true(floor[1] > floor[0] / 3 && floor[1] < floor[0] * 3);
+}
+
 static void what_has_no_tangent_is_refused(void **state)
 {
   (void)state;
@@ -330,6 +402,8 @@ int main(void)
       cmocka_unit_test(newton_converges_quadratically),
       cmocka_unit_test(equilibrium_does_not_depend_on_the_way),
       cmocka_unit_test(a_load_too_large_is_told_and_leaves_the_last_good_state),
+      cmocka_unit_test(standing_still_under_load_is_no_equilibrium),
+      cmocka_unit_test(rounding_knows_smoothed_laws),
       cmocka_unit_test(what_has_no_tangent_is_refused),
       cmocka_unit_test(linear_systems_are_solved_to_the_tolerance),
   };

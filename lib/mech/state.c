@@ -10,6 +10,13 @@
 #include "mech/prony.h"
 #include "mech/smoothed.h"
 
+bool vsc_state_has_former(const vsc_model *model, bool velocities)
+{
+  const vsc_solve_def *solve = &model->solve;
+  if (solve->kind == VSC_SOLVE_IMPLICIT) return solve->scheme == VSC_SCHEME_BDF2;
+  return solve->kind == VSC_SOLVE_EQUILIBRIUM && !velocities;
+}
+
 static bool allocate(const vsc_model *model, vsc_state *state)
 {
   const size_t n = model->node_count;
@@ -23,8 +30,6 @@ static bool allocate(const vsc_model *model, vsc_state *state)
   const bool nodal = model->terms.nodal_volume;
   const size_t tets =
       model->terms.smoothed ? VSC_MATRIX * VSC_WIDTH * model->pack_count : 0;
-  const bool remembers =
-      model->solve.kind == VSC_SOLVE_IMPLICIT && model->solve.scheme == VSC_SCHEME_BDF2;
   return VSC_NEW(state->x, 4 * n) && VSC_NEW(state->v, 4 * n) && VSC_NEW(state->a, 4 * n) &&
          VSC_NEW(state->force, 4 * n) && VSC_NEW(state->limit.mode, 4 * n) &&
          VSC_NEW(scratch->local, (size_t)scratch->threads * scratch->local_size) &&
@@ -41,8 +46,8 @@ static bool allocate(const vsc_model *model, vsc_state *state)
          VSC_NEW(state->pending, model->obstacle_count > 0 ? 4 * n : 0) &&
          VSC_NEW(state->moved, model->moved_count) &&
          VSC_NEW(state->kept_pressure, model->kept.count) &&
-         VSC_NEW(state->former_x, remembers ? 4 * n : 0) &&
-         VSC_NEW(state->former_v, remembers ? 4 * n : 0) &&
+         VSC_NEW(state->former_x, vsc_state_has_former(model, false) ? 4 * n : 0) &&
+         VSC_NEW(state->former_v, vsc_state_has_former(model, true) ? 4 * n : 0) &&
          VSC_NEW(state->prony, vsc_prony_size(model));
 }
 

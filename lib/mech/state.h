@@ -54,7 +54,7 @@ typedef struct vsc_contact_sums {
 typedef struct vsc_moved_sums {
   double part;        // the curve's value where its nodes are now
   double rate;        // d part/dt of their velocities, 1/ms
-  double force[3];    // sum of all other forces on its nodes, mN
+  double force[3];    // sum of all other forces on its nodes (implicit: less mass times acceleration), mN
   double work;        // done by it, uJ
   double impulse[3];  // of its force on the nodes, in the directions that it holds, mN ms
   double row_impulse[3];  // impulse at the last row of signals.csv, mN ms
@@ -80,9 +80,9 @@ typedef struct vsc_state {
   double *kept_pressure;  // kept.count: multiplier of each kept volume in the last step, kPa; owned
   void *keeper;           // what keeps them (solve/keep_volume.c), made when first needed
   void (*release_keeper)(void *keeper);
-  double former_step;         // scheme BDF2: the step before, 0: none yet, ms
+  double former_step;         // scheme BDF2, equilibria: the step (increment) before, 0: none yet, ms
   double *former_x;           // node_count x 4: position before it, mm; likewise, owned
-  double *former_v;           // node_count x 4: velocity before it, mm/ms; likewise, owned
+  double *former_v;           // node_count x 4: velocity before it, mm/ms; scheme BDF2, owned
   double *prony;          // vsc_prony_size: branches of Prony series (mech/prony.h); owned
   void *solver;           // memory of the method (solve/solve.c), made when it starts
   void (*release_solver)(void *solver);
@@ -96,6 +96,9 @@ typedef struct vsc_state {
 vsc_status vsc_state_create(const vsc_model *model, vsc_state **state, vsc_error *error);
 
 void vsc_state_free(vsc_state *state);  // NULL is fine
+
+// Whether the model's method remembers the step before, and its velocities too.
+bool vsc_state_has_former(const vsc_model *model, bool velocities);
 
 // The first node whose position or velocity is not finite, or node_count.
 size_t vsc_state_find_bad(const vsc_model *model, const vsc_state *state);

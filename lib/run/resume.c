@@ -47,13 +47,11 @@ static size_t contact_nodes(const vsc_job *job)
   return model->obstacle_count > 0 ? model->node_count : 0;
 }
 
-// Nodes that remember the step before (scheme BDF2).
-static size_t former_nodes(const vsc_job *job)
+// Nodes that remember the step before, or their velocities in it.
+static size_t former_nodes(const vsc_job *job, bool velocities)
 {
   const vsc_model *model = job->problem->model;
-  const bool remembers =
-      model->solve.kind == VSC_SOLVE_IMPLICIT && model->solve.scheme == VSC_SCHEME_BDF2;
-  return remembers ? model->node_count : 0;
+  return vsc_state_has_former(model, velocities) ? model->node_count : 0;
 }
 
 // `count` where equilibria have multipliers.
@@ -80,9 +78,9 @@ static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[
        state->scratch.node_multiplier},
       {"element_multipliers", "kPa", multipliers(job, job->problem->model->pack_count), VSC_WIDTH,
        state->scratch.pack_multiplier},
-      {"former_position", "mm", former_nodes(job), 4, state->former_x},
-      {"former_velocity", "mm/ms", former_nodes(job), 4, state->former_v},
-      {"former_step", "ms", former_nodes(job) > 0, 1, &state->former_step},
+      {"former_position", "mm", former_nodes(job, false), 4, state->former_x},
+      {"former_velocity", "mm/ms", former_nodes(job, true), 4, state->former_v},
+      {"former_step", "ms", former_nodes(job, false) > 0, 1, &state->former_step},
       {"moved_supports", "1, 1/ms, mN, uJ, mN ms, mN ms, ms", job->problem->model->moved_count,
        sizeof *state->moved / sizeof(double), (double *)state->moved},
       {"prony", "1, kPa, uJ", vsc_prony_size(job->problem->model), 1, state->prony},
@@ -130,14 +128,15 @@ static void list_arrays(vsc_job *job, double *arrays[4])
   memcpy(arrays, list, sizeof list);
 }
 
-// Numbers of the sums of obstacles and of moving supports, of what nodes remember of contact, and of
-// the branches of Prony series.
+// Numbers of the sums of obstacles and of moving supports, of what nodes remember of contact and of the
+// step before, and of the branches of Prony series.
 static size_t sums_size(const vsc_job *job)
 {
   const vsc_model *model = job->problem->model;
   return (model->obstacle_count * sizeof *job->state->contact +
           model->moved_count * sizeof *job->state->moved) / sizeof(double) +
-         12 * contact_nodes(job) + vsc_prony_size(model);
+         12 * contact_nodes(job) + vsc_prony_size(model) + 1 +
+         4 * (former_nodes(job, false) + former_nodes(job, true));
 }
 
 // Copies these to `memory`, or back from it.
@@ -146,13 +145,17 @@ static void copy_sums(vsc_job *job, double *memory, bool back)
   vsc_state *state = job->state;
   const vsc_model *model = job->problem->model;
   const size_t nodes = 4 * contact_nodes(job);
-  double *const arrays[6] = {state->former, state->pending, state->contact_normal,
-                             (double *)state->contact, (double *)state->moved, state->prony};
-  const size_t counts[6] = {nodes, nodes, nodes,
+  enum { ARRAYS = 9 };
+  double *const arrays[ARRAYS] = {state->former,   state->pending,           state->contact_normal,
+                                  (double *)state->contact, (double *)state->moved,
+                                  state->prony,    &state->former_step,      state->former_x,
+                                  state->former_v};
+  const size_t counts[ARRAYS] = {nodes, nodes, nodes,
                             model->obstacle_count * sizeof *state->contact / sizeof(double),
                             model->moved_count * sizeof *state->moved / sizeof(double),
-                            vsc_prony_size(model)};
-  for (int k = 0; k < 6; memory += counts[k++])
+                            vsc_prony_size(model), 1, 4 * former_nodes(job, false),
+                            4 * former_nodes(job, true)};
+  for (int k = 0; k < ARRAYS; memory += counts[k++])
     memcpy(back ? arrays[k] : memory, back ? memory : arrays[k], counts[k] * sizeof *memory);
 }
 

@@ -60,20 +60,21 @@ static void put_contact(const vsc_model *model, const vsc_state *state, vsc_watc
   put(watch, "mJ", MJ * watch->totals.contact_lost, "lost_contact", "");
 }
 
-// The mean force of each moving support on its nodes since the last row, mN, in the directions that it
-// holds, and the work of all.
+// The mean force of each moving support on its nodes since the last row (of equilibria: the force now), mN,
+// in the directions that it holds, and the work of all.
 static void put_moved(const vsc_model *model, const vsc_state *state, vsc_watch *watch)
 {
   static const char *const axis[3] = {"_x", "_y", "_z"};
+  const bool rests = model->solve.kind == VSC_SOLVE_EQUILIBRIUM;
   for (size_t s = 0; s < model->moved_count; s++) {
     const vsc_moved_sums *sums = &state->moved[s];
     const double passed = state->time - sums->row_time;
     char name[VSC_NAME + 16];
     snprintf(name, sizeof name, "support_%s", model->moved[s].set);
-    for (int i = 0; i < 3; i++)
-      if (model->moved[s].held[i])
-        put(watch, "mN", passed > 0 ? (sums->impulse[i] - sums->row_impulse[i]) / passed : 0, name,
-            axis[i]);
+    for (int i = 0; i < 3; i++) {
+      const double mean = passed > 0 ? (sums->impulse[i] - sums->row_impulse[i]) / passed : 0;
+      if (model->moved[s].held[i]) put(watch, "mN", rests ? -sums->force[i] : mean, name, axis[i]);
+    }
   }
   if (model->moved_count > 0)
     put(watch, "mJ", MJ * watch->totals.support_work, "work_supports", "");

@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "mech/force.h"
 #include "solve/incompressible.h"
+#include "solve/moving.h"
 
 #define LONGER 1.6    // after an increment of at most QUICK iterations
 #define SHORTER 0.4   // after one that failed
@@ -68,13 +69,15 @@ static vsc_status settle(vsc_newton *newton, statics *s, double *x, int *iterati
                   s->time, off, VSC_MOST_ROUNDS, tolerance);
 }
 
-// Where the last increment's velocity leads in dt, unless that turns an element inside out; supports that
+// Where the last increment leads when it goes on for dt, unless that turns an element inside out; supports that
 // move are where they have to be. False when they turn one inside out.
 static bool guess(const vsc_model *model, vsc_state *state, double dt, double time, double *x)
 {
   uint32_t element;
+  const double way = state->former_step > 0 ? dt / state->former_step : 0;
   for (size_t i = 0; i < 4 * model->node_count; i++)
-    x[i] = state->x[i] + (model->inverse_mass[i] != 0 ? dt * state->v[i] : 0);
+    x[i] = state->x[i] +
+           (model->inverse_mass[i] != 0 ? way * (state->x[i] - state->former_x[i]) : 0);
   vsc_supports_place(model, time, state->scratch.load, x);
   if (vsc_smallest_ratio(model, x, &element) > 0) return true;
   memcpy(x, state->x, 4 * model->node_count * sizeof *x);
@@ -105,12 +108,11 @@ vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double u
                        "inside out",
                        s.time);
     if (status == VSC_OK) {
-      const double dt = (next - done) * way;
-      for (size_t i = 0; i < 4 * model->node_count; i++) {
-        state->v[i] = (x[i] - state->x[i]) / dt;
-        state->x[i] = x[i];
-      }
+      memcpy(state->former_x, state->x, 4 * model->node_count * sizeof *x);
+      memcpy(state->x, x, 4 * model->node_count * sizeof *x);
+      state->former_step = (next - done) * way;
       state->time = next == 1 ? until : s.time;
+      vsc_moving_reckon(model, state, newton->r, state->scratch.load, state->former_step);
       done = next;
       increment *= iterations <= QUICK ? LONGER : 1;
       continue;

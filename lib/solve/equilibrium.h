@@ -13,8 +13,8 @@ vsc_status vsc_equilibrium_start(const vsc_model *model, vsc_state *state, vsc_e
 
 // The equilibrium at `until` (ms), found from that at state->time in increments of the way between
 // them: the first is the whole way, each next 1.6 times as long after at most 5 iterations, 0.4 times
-// where Newton's method fails, starting from where the last two lead. The velocity is that of
-// the last increment. VSC_NUMERICAL, with a row of words on what went wrong, when even an increment of
+// where Newton's method fails, starting from where the last two lead. Nothing moves: velocities
+// are 0. VSC_NUMERICAL, with a row of words on what went wrong, when even an increment of
 // 1/4000 fails; the state is then that of the last increment that succeeded.
 vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double until,
                               vsc_error *error);

@@ -6,6 +6,7 @@
 
 #include "base/mem.h"
 #include "mech/force.h"
+#include "solve/moving.h"
 
 #define FIRST_STEP 1.0      // ms, unless the way is shorter
 #define SHORTEST_STEP 1e-6  // part of the way to the next stop
@@ -82,7 +83,13 @@ vsc_status vsc_implicit_start(const vsc_model *model, vsc_state *state, vsc_erro
   state->solver = s;
   state->release_solver = release;
   state->limit.step = model->step > 0 ? model->step : fmin(FIRST_STEP, model->end_time);
-  return first_acceleration(model, state, s->newton, error);
+  vsc_supports_place(model, state->time, 1, state->x);
+  status = first_acceleration(model, state, s->newton, error);
+  if (status == VSC_OK && model->moved_count > 0) {
+    vsc_tangent_masses_times(model, s->newton->tangent, -1, state->a, state->force);
+    vsc_moving_start(model, state);
+  }
+  return status;
 }
 
 // ---- one step
@@ -204,6 +211,17 @@ static void accept(const step *p, double dt)
   if (remembers) state->former_step = dt;
 }
 
+// What supports that move have done in the step of dt that has led to the state: f - M a is what their own
+// force balances.
+static void reckon_supports(const vsc_model *model, vsc_state *state, double dt)
+{
+  const stepper *s = state->solver;
+  if (model->moved_count == 0) return;
+  vsc_force(model, state->x, state->v, state->time, &state->scratch, state->force);
+  vsc_tangent_masses_times(model, s->newton->tangent, -1, state->a, state->force);
+  vsc_moving_reckon(model, state, state->force, 1, dt);
+}
+
 static vsc_status do_step(const vsc_model *model, vsc_state *state, double dt, double *allowed,
                           bool *done, vsc_error *error)
 {
@@ -258,6 +276,7 @@ vsc_status vsc_implicit_to(const vsc_model *model, vsc_state *state, double unti
     if (!done) continue;
     state->steps++;
     state->time = parts == 1 ? until : state->time + dt;
+    reckon_supports(model, state, dt);
   }
   return VSC_OK;
 }

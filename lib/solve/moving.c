@@ -71,3 +71,22 @@ void vsc_moving_account(const vsc_model *model, vsc_state *state, double dt, boo
     if (last) give_rate(moved, rate, state->v);
   }
 }
+
+void vsc_moving_reckon(const vsc_model *model, vsc_state *state, const double *force, double load,
+                       double dt)
+{
+  for (size_t s = 0; s < model->moved_count; s++) {
+    const vsc_moved *moved = &model->moved[s];
+    vsc_moved_sums *sums = &state->moved[s];
+    const double part = load * vsc_curve_value(&moved->curve, state->time);
+    double now[3];
+    add_forces(moved, force, now);
+    for (int i = 0; i < 3; i++) {
+      const double mean = 0.5 * (now[i] + sums->force[i]);
+      sums->work -= mean * moved->motion[i] * (part - sums->part);
+      if (moved->held[i]) sums->impulse[i] -= mean * dt;
+      sums->force[i] = now[i];
+    }
+    sums->part = part;
+  }
+}

@@ -21,4 +21,11 @@ void vsc_moving_place(const vsc_model *model, vsc_state *state, double dt);
 // nodes leaves for the support. `last` of a row of steps: velocities become those of its end.
 void vsc_moving_account(const vsc_model *model, vsc_state *state, double dt, bool last);
 
+// For methods whose balance the nodes follow as they are told: with `force` (node_count x 4, mN) what is
+// on the nodes at state->time beside the support, less their mass times acceleration, and the part `load` of
+// the motion taken there, adds the work and impulse of a step of dt (ms) by the trapezoidal rule,
+//   -(f + f_0)/2 . motion (c - c_0),   -dt (f + f_0)/2.
+void vsc_moving_reckon(const vsc_model *model, vsc_state *state, const double *force, double load,
+                       double dt);
+
 #endif

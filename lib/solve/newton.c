@@ -16,6 +16,11 @@ enum { MOST_HALVINGS = 4 };
 // Positions are rounded to this part of the body's size, and forces with them.
 #define ROUNDING 4e-16
 #define STILL 1e-14
+// A step of nothing is an end only where forces balance to this part of those at work: 0.1 % of a load
+// still to be borne is told as a failure, while the rounding that keeps steps from more is far smaller.
+#define STILL_RESIDUAL 1e-3
+// Sums of rounded forces of the elements round a node are off by some times what one of them is.
+#define ROUNDED_SUMS 4
 
 vsc_status vsc_newton_create(const vsc_model *model, vsc_newton **newton, vsc_error *error)
 {
@@ -51,7 +56,6 @@ void vsc_newton_free(vsc_newton *newton)
   vsc_free(newton->rows);
   vsc_free(newton);
 }
-
 
 double vsc_body_size(const vsc_model *model)
 {
@@ -114,6 +118,18 @@ void vsc_newton_begin(vsc_newton *newton, const double *force)
   newton->floor = 0;
 }
 
+// Rounding alone in |r|: positions are rounded by ROUNDING of the body's size, and the stiffest of the
+// tangent turns that into forces. What the matrix lacks of laws of smoothed tets and of shared volumes is in
+// the preconditioner.
+static double rounding_of(const vsc_newton *newton)
+{
+  const vsc_model *model = newton->model;
+  const double stiffest =
+      fmax(vsc_block_matrix_largest(&newton->tangent->matrix, model->inverse_mass),
+           vsc_block_matrix_largest(&newton->tangent->preconditioner, model->inverse_mass));
+  return ROUNDING * newton->size * sqrt((double)model->node_count) * stiffest;
+}
+
 static void write_row(vsc_newton *newton, const vsc_newton_row *row)
 {
   if (newton->row_count == newton->row_room) {
@@ -139,12 +155,13 @@ static bool step(vsc_newton *newton, double *x, uint32_t *element)
   return false;
 }
 
-// Whether the last step moved nothing by more than positions are rounded.
-static bool stands_still(const vsc_newton *newton)
+// Whether the last step moved nothing by more than positions are rounded, with hardly a force left.
+static bool stands_still(const vsc_newton *newton, double norm)
 {
   double most = 0;
   for (size_t i = 0; i < 4 * newton->model->node_count; i++) most = fmax(most, fabs(newton->d[i]));
-  return most <= STILL * newton->size;
+  return most <= STILL * newton->size &&
+         norm <= fmax(STILL_RESIDUAL * newton->scale, ROUNDED_SUMS * newton->floor);
 }
 
 static vsc_status fail(vsc_error *error, double time, const char *why)
@@ -164,11 +181,13 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
     balance->residual(balance->context, x, newton->r);
     const double norm = free_norm(model, newton->r);
     if (k == 0) first = norm;
+    // without loads at rest, a support that moves is all that is at work
+    if (k == 0 && newton->scale == 0) newton->scale = whole_norm(model, newton->r);
     const vsc_linear_counts counts = vsc_linear_counted(newton->linear);
     const double relative = newton->scale > 0 ? norm / newton->scale : 0;
     vsc_newton_row row = {time, load, k, relative, 0, 0};
     *iterations = k;
-    if (relative <= tolerance || norm <= newton->floor || (k > 0 && stands_still(newton))) {
+    if (relative <= tolerance || norm <= newton->floor || (k > 0 && stands_still(newton, norm))) {
       write_row(newton, &row);
       newton->scale = fmax(newton->scale, whole_norm(model, newton->r));
       return VSC_OK;
@@ -183,10 +202,9 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
     before = norm;
     balance->assemble(balance->context, x, k > 0 ? newton->before : NULL, newton->tangent);
     memcpy(newton->before, x, 4 * model->node_count * sizeof *x);
-    newton->floor = ROUNDING * newton->size * sqrt((double)model->node_count) *
-                    vsc_block_matrix_largest(&newton->tangent->matrix, model->inverse_mass);
     const vsc_status status = vsc_linear_solve(newton->linear, newton->tangent, model->inverse_mass, x,
                                                newton->r, forcing, newton->d, &newton->indefinite, error);
+    newton->floor = rounding_of(newton);
     const vsc_linear_counts after = vsc_linear_counted(newton->linear);
     row.linear = after.iterations - counts.iterations;
     row.factorized = after.factorizations - counts.factorizations;

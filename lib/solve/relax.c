@@ -7,6 +7,7 @@
 #include "base/mem.h"
 #include "mech/force.h"
 #include "mech/step_limit.h"
+#include "solve/moving.h"
 
 enum { MOST_STEPS = 200000, RAMP_STEPS = 200, REFRESH = 200, REFRESH_IN_RAMP = 20, ITERATIONS = 8 };
 
@@ -77,6 +78,7 @@ static void step(const relaxer *r, vsc_state *state, double time, double h, doub
     v[i] = ((2 - *damping * h) * v[i] + 2 * h * model->inverse_mass[i] * force[i]) / (2 + *damping * h);
     x[i] += h * v[i];
   }
+  vsc_supports_place(model, time, state->scratch.load, x);
   memcpy(r->before, force, 4 * model->node_count * sizeof *force);
   vsc_force(model, x, NULL, time, &state->scratch, force);
   for (size_t i = 0; i < 4 * model->node_count; i++) {
@@ -109,6 +111,7 @@ vsc_status vsc_relax_to(const vsc_model *model, vsc_state *state, double until, 
     memset(state->v, 0, 4 * model->node_count * sizeof *state->v);
     state->time = until;
     state->steps++;
+    vsc_moving_reckon(model, state, state->force, 1, loads.way);
     return VSC_OK;
   }
   return vsc_fail(error, VSC_NUMERICAL,
