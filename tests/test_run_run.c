@@ -354,6 +354,35 @@ static void test_fixed_steps(void **state)
   must("grep -q forced_step fixed/summary.json");
 }
 
+// A support that jerks viscous tissue into motion: the ledger does not see it balance before steps are shorter.
+// A load that tears it to pieces: what is told, and the last good state is kept.
+static void test_repeated_with_shorter_steps(void **state)
+{
+  (void)state;
+  static const char jerk[] =
+      "mesh: {file: block.vtu, unit: mm, region_array: region}\n"
+      "surfaces: [{name: end, boundary: true}]\n"
+      "node_sets:\n"
+      "  - {name: left, node_array: x0, value: 1}\n"
+      "  - {name: right, node_array: x1, value: 1}\n"
+      "materials:\n"
+      "  - {name: muscle, axial: {f: 20 kPa, s: 20 kPa, n: 20 kPa}, viscosity: 60 Pa s, volume_modulus: 500 kPa,\n"
+      "     angular: {fs: 10 kPa, sn: 10 kPa, nf: 10 kPa}}\n"
+      "supports:\n"
+      "  - {set: left, held: [x, y, z]}\n"
+      "  - {set: right, held: [x, y, z], motion: [1 mm, 0 mm, 0 mm], curve: {kind: ramp, duration: 5 ms}}\n"
+      "time: {end: 3 ms}\n"
+      "output: {frames: 5 ms, signals: 1 ms}\n";
+  save_text("jerk.yaml", jerk);
+  must("$V run jerk.yaml -q -o jerk");
+  assert_string_equal(summary("jerk", "outcome"), "\"finished\"");
+  assert_true(strtod(summary("jerk", "stretches_repeated_with_shorter_steps"), NULL) >= 1);
+  assert_int_equal(shell("$V run jerk.yaml -q -o torn --set 'pressures=[{surface: end, peak: 100 MPa}]'"), 3);
+  assert_non_null(strstr(complained, "the energy balance jumped"));
+  assert_non_null(strstr(complained, " energy; element "));
+  assert_true(strtod(summary("torn", "stretches_repeated_with_shorter_steps"), NULL) == 3);
+}
+
 // 0.1 is no binary fraction: 110 multiples of it, none twice, none left out.
 static void test_many_rows(void **state)
 {
@@ -434,6 +463,7 @@ int main(void)
       cmocka_unit_test(test_fibres_of_the_first_frame),
       cmocka_unit_test(test_intervals),
       cmocka_unit_test(test_fixed_steps),
+      cmocka_unit_test(test_repeated_with_shorter_steps),
       cmocka_unit_test(test_many_rows),
       cmocka_unit_test(test_library_call),
       cmocka_unit_test(test_long_names),

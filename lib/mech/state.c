@@ -22,6 +22,7 @@ static bool allocate(const vsc_model *model, vsc_state *state)
   const size_t n = model->node_count;
   vsc_scratch *scratch = &state->scratch;
   scratch->load = 1;
+  state->limit.caution = 1;
   scratch->threads = vsc_parallel_threads();
   // positions, velocities and forces of a patch's nodes, their pressures, the activation of its
   // packs

@@ -17,6 +17,7 @@ typedef struct vsc_limit {
   double interval;    // how long the estimate is trusted, ms
   double refreshes;   // estimates so far
   double first;       // the step that was allowed at the start, ms
+  double caution;     // part of the allowed step that is taken: 1, but where a way is gone again
   double *mode;       // node_count x 4: the eigenvector so far; owned
 } vsc_limit;
 

@@ -22,6 +22,7 @@ typedef struct vsc_job {
   double start_wall, start_cpu, start_steps, start_time;
   double converged_rows;  // of convergence.csv so far
   double most_inverted;  // largest number of elements with J <= 0 at any row
+  double repeated;       // stretches that were gone again with shorter steps
   double most_continued;  // largest number of frames beyond a law's largest exponent at any row
 } vsc_job;
 

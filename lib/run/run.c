@@ -13,6 +13,7 @@
 
 #define LONGEST_LOOK 1.0  // ms between two looks of the energy ledger
 #define CLOSER 16         // looks in place of one that did not balance
+#define TURNS 4           // how often a way is gone again
 #define SAME_TIME 1e-12   // part of a time by which multiples of intervals differ by rounding
 
 static void name_of_scene(const char *file, char name[VSC_NAME])
@@ -175,23 +176,38 @@ static vsc_status go_to(vsc_job *job, double time, vsc_error *error)
   return status == VSC_OK ? observe(job, error) : status;
 }
 
-// To the next look. When energy does not balance there, because loads or vibrations have changed
-// much since the last look, the same way is gone again with closer looks; what does not balance
-// then is coming apart.
+// On to `time` in so many looks of the way that began at `start`.
+static vsc_status go_closer(vsc_job *job, double start, double time, int looks, vsc_error *error)
+{
+  for (int k = 1; k <= looks; k++) {
+    const double next = k < looks ? start + (time - start) * k / looks : time;
+    if (next <= job->state->time * (1 + SAME_TIME)) continue;
+    const vsc_status status = go_to(job, next, error);
+    if (status != VSC_OK) return status;
+  }
+  return VSC_OK;
+}
+
+// To the next look. When energy does not balance there, because loads or vibrations have changed much
+// since the last look, the same way is gone again with closer looks, then with steps of a half, a quarter,
+// an eighth of their length and looks closer still, and so it is when numbers are no longer finite; what
+// fails then is coming apart.
 static vsc_status go_to_look(vsc_job *job, double time, vsc_error *error)
 {
-  const vsc_status status = go_to(job, time, error);
-  if (status != VSC_NUMERICAL || job->state->time < time ||
-      job->problem->model->solve.kind != VSC_SOLVE_EXPLICIT)
-    return status;
-  vsc_job_go_back(job);
-  vsc_watch_resume(job->problem, job->state, job->watch);
-  const double start = job->state->time;
-  for (int k = 1; k < CLOSER; k++) {
-    const vsc_status again = go_to(job, start + (time - start) * k / CLOSER, error);
-    if (again != VSC_OK) return again;
+  const vsc_model *model = job->problem->model;
+  const double start = job->state->time, repeated = job->repeated;
+  vsc_status status = go_to(job, time, error);
+  if (model->solve.kind != VSC_SOLVE_EXPLICIT) return status;
+  const int turns = model->step > 0 ? 1 : TURNS;
+  for (int turn = 0; status == VSC_NUMERICAL && turn < turns; turn++) {
+    vsc_job_go_back(job);
+    vsc_watch_resume(job->problem, job->state, job->watch);
+    job->state->limit.caution = ldexp(1, -turn);
+    job->repeated = repeated + turn;
+    status = go_closer(job, start, time, CLOSER << turn, error);
   }
-  return go_to(job, time, error);
+  job->state->limit.caution = 1;
+  return status;
 }
 
 // Goes on to the first look at or after `stop`: looks, and with them the steps, are where they
@@ -243,7 +259,9 @@ static void fill_result(const vsc_job *job, vsc_run_result *result)
 static void save_failure(vsc_job *job, vsc_run_result *result, const vsc_error *error)
 {
   if (job->pvd == NULL || job->watch == NULL || job->watch->rows == 0) return;
+  const double repeated = job->repeated;
   vsc_job_go_back(job);
+  job->repeated = repeated;
   const size_t frames = vsc_pvd_count(job->pvd);
   if (frames == 0 || fabs(vsc_pvd_time(job->pvd, frames - 1) - 1e-3 * job->state->time) > 1e-9)
     vsc_job_write_frame(job, NULL);

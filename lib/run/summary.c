@@ -79,6 +79,8 @@ static void write_body(const vsc_job *job, const vsc_run_result *result, const c
     write_string(file, "conservative", "no: law paper keeps neither energy nor momenta", ",");
   write_number(file, "step_estimates", job->state->limit.refreshes, ",");
   write_newton(job, file);
+  if (model->solve.kind == VSC_SOLVE_EXPLICIT)
+    write_number(file, "stretches_repeated_with_shorter_steps", job->repeated, ",");
   write_number(file, "most_inverted_elements", job->most_inverted, ",");
   write_number(file, "most_frames_beyond_exponent", job->most_continued, ",");
   write_number(file, "frames", (double)result->frames, ",");

@@ -9,6 +9,7 @@
 
 #include "base/mem.h"
 #include "model/small_strain.h"
+#include "solve/newton.h"
 
 #define MJ 1e-3  // mJ per uJ
 #define ML 1e-3  // ml per mm^3
@@ -275,28 +276,69 @@ vsc_status vsc_watch_open(const vsc_problem *problem, const char *file, double k
   return VSC_OK;
 }
 
-static vsc_status check_balance(const vsc_model *model, const vsc_state *state, vsc_watch *watch,
+// Which of the body's energies has changed most since the last look.
+static const char *busiest_term(const vsc_totals *now, const vsc_totals *before)
+{
+  const struct {
+    const char *name;
+    double change;
+  } terms[] = {{"kinetic", now->kinetic - before->kinetic},
+               {"axial", now->axial - before->axial},
+               {"angular", now->angular - before->angular},
+               {"volume", now->volume_energy - before->volume_energy},
+               {"membrane", now->membrane - before->membrane},
+               {"bending", now->bending - before->bending},
+               {"springs", now->springs - before->springs}};
+  size_t most = 0;
+  for (size_t k = 0; k < sizeof terms / sizeof terms[0]; k++) {
+    if (!isfinite(terms[k].change)) return terms[k].name;
+    if (fabs(terms[k].change) > fabs(terms[most].change)) most = k;
+  }
+  return terms[most].name;
+}
+
+static vsc_status fail_balance(const vsc_problem *problem, const vsc_state *state, const vsc_watch *watch,
+                               double jump, vsc_error *error)
+{
+  uint32_t worst = 0;
+  const double ratio = vsc_smallest_ratio(problem->model, state->x, &worst);
+  const vsc_mesh *mesh = problem->mesh;
+  double at[3] = {0};
+  char where[160] = "";
+  for (size_t c = mesh->start[worst]; mesh->element_count > 0 && c < mesh->start[worst + 1]; c++)
+    for (size_t i = 0; i < 3; i++)
+      at[i] += mesh->nodes[3 * mesh->corners[c] + i] / (double)(mesh->start[worst + 1] - mesh->start[worst]);
+  if (mesh->element_count > 0)
+    snprintf(where, sizeof where, "; element %u at (%.4g, %.4g, %.4g) mm has the smallest volume, %.2g of its own",
+             mesh->element_source[worst], at[0], at[1], at[2], ratio);
+  return vsc_fail(error, VSC_NUMERICAL,
+                  "at %.6g ms the energy balance jumped by %.3g mJ, %.0f %% of the largest energy so far, most in "
+                  "the %s energy%s: the simulation is coming apart; take a smaller time.safety, more damping, or "
+                  "a smaller load",
+                  state->time, MJ * jump, 100 * jump / watch->energy_scale,
+                  busiest_term(&watch->totals, &watch->former), where);
+}
+
+static vsc_status check_balance(const vsc_problem *problem, const vsc_state *state, vsc_watch *watch,
                                 vsc_error *error)
 {
+  const vsc_model *model = problem->model;
   const vsc_totals *t = &watch->totals;
   const vsc_ledger *ledger = watch->ledger;
   const double error_now = vsc_balance_error(ledger, t), jump = fabs(error_now - watch->balance);
   const double sizes[] = {
       t->kinetic + t->axial + t->angular + t->volume_energy + t->membrane + t->bending + t->springs,
-      fabs(ledger->active), fabs(ledger->pressure), fabs(t->contact_work),
+      fabs(ledger->active), fabs(ledger->pressure), ledger->dissipated, fabs(t->contact_work),
       fabs(t->support_work)};
   watch->balance = error_now;
   for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++)
     watch->energy_scale = fmax(watch->energy_scale, sizes[k]);
   // law PAPER makes energy, and a forced step is the user's own risk
   // equilibria store work along ways that the ledger does not see
-  const bool may_jump = ledger->calls <= 1 || model->solve.kind != VSC_SOLVE_EXPLICIT || model->terms.paper || model->force_step;
+  const bool may_jump = ledger->calls <= 1 || model->solve.kind != VSC_SOLVE_EXPLICIT ||
+                        model->terms.paper || model->force_step;
   if (isfinite(error_now) && (may_jump || jump <= 0.05 * watch->energy_scale)) return VSC_OK;
-  return vsc_fail(
-      error, VSC_NUMERICAL,
-      "at %.6g ms the energy balance jumped by %.3g mJ, %.0f %% of the largest energy so far: the "
-      "simulation is coming apart; take a smaller time.safety, more damping, or a smaller load",
-      state->time, MJ * jump, 100 * jump / watch->energy_scale);
+  return fail_balance(problem, state, watch, jump, error);
 }
 
 static vsc_status write_row(vsc_watch *watch, vsc_error *error)
@@ -317,8 +359,9 @@ static vsc_status write_row(vsc_watch *watch, vsc_error *error)
 vsc_status vsc_watch_observe(const vsc_problem *problem, vsc_state *state, vsc_watch *watch,
                              vsc_error *error)
 {
+  watch->former = watch->totals;
   vsc_observe(problem->model, state, watch->ledger, false, &watch->totals);
-  return check_balance(problem->model, state, watch, error);
+  return check_balance(problem, state, watch, error);
 }
 
 vsc_status vsc_watch_row(const vsc_problem *problem, vsc_state *state, vsc_watch *watch,

@@ -20,7 +20,7 @@ enum {
 typedef struct vsc_watch {
   FILE *file;          // signals.csv, open for appending
   vsc_ledger *ledger;  // owned
-  vsc_totals totals;   // of the last row
+  vsc_totals totals, former;  // of the last look, and of the one before
   size_t cavity_count;
   vsc_cavity *cavities;                        // with the model's node numbers; owned
   uint32_t (*point_nodes)[VSC_MOST_CORNERS];   // of each observed point's element, in the model; owned

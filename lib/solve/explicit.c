@@ -209,7 +209,8 @@ static vsc_status check_finite(const vsc_model *model, const vsc_state *state, v
 static vsc_status step_to(const vsc_model *model, vsc_state *state, double stop, vsc_error *error)
 {
   const double start = state->time;
-  const double steps = fmax(ceil((stop - start) / state->limit.step * (1 - 1e-12)), 1);
+  const double longest = state->limit.caution * state->limit.step;
+  const double steps = fmax(ceil((stop - start) / longest * (1 - 1e-12)), 1);
   const vsc_status status = vsc_steps(model, state, (stop - start) / steps, steps, error);
   if (status == VSC_OK) state->time = stop;
   return status;
