@@ -5,6 +5,7 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
+#include "model/free_motions.h"
 #include "model/small_strain.h"
 #include "run/check.h"
 
@@ -192,8 +193,14 @@ static void warn_setting(writer *w, const vsc_problem *problem)
     warn(w, "mesh: its box is %.3g x %.3g x %.3g mm: is mesh.unit right?", size[0], size[1],
          size[2]);
   const bool driven = model->pressure_count > 0 || model->terms.gravity;
-  if (model->held_count == 0 && model->obstacle_count == 0 && model->robin_count == 0 && driven)
+  if (model->held_count == 0 && model->obstacle_count == 0 && model->robin_count == 0 && driven &&
+      model->solve.kind != VSC_SOLVE_EQUILIBRIUM)
     warn(w, "supports: nothing is held, so the load will carry the body away");
+  char ways[128];
+  if (model->solve.kind == VSC_SOLVE_EQUILIBRIUM && vsc_free_motions(model, ways, sizeof ways) > 0)
+    warn(w, "solve: equilibrium: the body is free to %s, so forces that push it there never balance: hold it by "
+            "supports or robin",
+         ways);
   bool pushed = vsc_supports_move(model);
   for (size_t o = 0; o < model->obstacle_count; o++)
     pushed |= vsc_norm(model->obstacles[o].motion) > 0;

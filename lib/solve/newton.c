@@ -7,6 +7,7 @@
 
 #include "base/mem.h"
 #include "mech/element.h"
+#include "model/free_motions.h"
 
 enum { MOST_HALVINGS = 4 };
 // Full steps of a stiffening body overshoot, and come back from far away; not from here.
@@ -226,8 +227,12 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
     }
   }
   newton->failures++;
-  char why[120];
-  snprintf(why, sizeof why, "the residual is %.2g of the forces after %d iterations, not below %.2g",
-           newton->scale > 0 ? before / newton->scale : 0, *iterations, tolerance);
+  char why[300], ways[100];
+  const double now = newton->rows[newton->row_count - 1].residual;
+  const int length = snprintf(why, sizeof why, "the residual is %.2g of the forces after %d iterations, not below %.2g",
+                              now, *iterations, tolerance);
+  if (vsc_free_motions(model, ways, sizeof ways) > 0)
+    snprintf(why + length, sizeof why - (size_t)length,
+             "; nothing keeps the body from moving as a whole, it is free to %s: hold it by supports or robin", ways);
   return fail(error, time, why);
 }

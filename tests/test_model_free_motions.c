@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which rigid motions supports and springs on surfaces leave free.
+#include "small_body.h"
+#include "model/free_motions.h"
+
+static void free_to(const char *set, const char *other, const int held[3], const int more[3], int count,
+                    const char *words)
+{
+  small_body body;
+  char text[128];
+  body_open(&body, block_of(3, 2, 2, 1, 0.1), 50);
+  if (set != NULL) body_hold(&body, set, held[0], held[1], held[2]);
+  if (other != NULL) body_hold(&body, other, more[0], more[1], more[2]);
+  body_build(&body);
+  assert_int_equal(vsc_free_motions(body.model, text, sizeof text), count);
+  assert_string_equal(text, words);
+  body_close(&body);
+}
+
+static void supports_leave_what_they_do_not_hold(void **state)
+{
+  (void)state;
+  free_to(NULL, NULL, NULL, NULL, 6, "move along x, y, z and turn about x, y, z");
+  free_to("x0", NULL, (int[3]){1, 1, 1}, NULL, 0, "");
+  free_to("x0", NULL, (int[3]){1, 0, 0}, NULL, 3, "move along y, z and turn about x");
+  free_to("x0", NULL, (int[3]){1, 1, 0}, NULL, 1, "move along z");
+  free_to("x0", "y0", (int[3]){1, 0, 0}, (int[3]){0, 1, 0}, 1, "move along z");
+  // along x, and about an upright axis in the face that it is held at, which goes not through its middle
+  free_to("x0", "z0", (int[3]){0, 1, 0}, (int[3]){0, 0, 1}, 2, "move in 2 ways as one rigid thing");
+}
+
+static void springs_on_a_surface_hold_too(void **state)
+{
+  (void)state;
+  for (int normal = 0; normal < 2; normal++) {
+    small_body body;
+    char text[128];
+    vsc_selector surface = {.kind = VSC_SELECT_NODE_ARRAY, .low = 1, .high = 1};
+    vsc_robin_def robin = {.stiffness = 1, .normal = normal};
+    body_open(&body, block_of(3, 2, 2, 1, 0), 50);
+    vsc_copy_name(surface.name, "end");
+    vsc_copy_name(surface.array, "x1");
+    vsc_copy_name(robin.surface, "end");
+    body.definition.surfaces = &surface;
+    body.definition.surface_count = 1;
+    body.definition.robins = &robin;
+    body.definition.robin_count = 1;
+    body_build(&body);
+    assert_int_equal(vsc_free_motions(body.model, text, sizeof text), normal ? 3 : 0);
+    assert_string_equal(text, normal ? "move along y, z and turn about x" : "");
+    body_close(&body);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(supports_leave_what_they_do_not_hold),
+      cmocka_unit_test(springs_on_a_surface_hold_too),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
