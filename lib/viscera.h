@@ -35,6 +35,7 @@
 #include "run/problem.h"
 #include "run/run.h"
 #include "solve/explicit.h"
+#include "solve/mass_scaling.h"
 #include "solve/solve.h"
 
 #endif

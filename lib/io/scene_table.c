@@ -85,6 +85,10 @@ static const vsc_row time_rows[] = {
      .meaning = "true: takes that time even above the stable step, and says so"},
     {"safety", NUMBER(vsc_definition, safety), .text = "0.8",
      .meaning = "auto: fraction of the stable step that is taken"},
+    {"mass_scaling", QUANTITY(vsc_definition, mass_scaling, VSC_TIME), .commented = true, .text = "0.05 ms",
+     .meaning = "mass is added at the stiffest elements until steps may be as long; default 0 ms: none"},
+    {"most_added_mass", NUMBER(vsc_definition, most_added_mass), .commented = true, .text = "0.05",
+     .meaning = "part of the body's mass that this may add"},
 };
 GROUP(static, time, -1);
 

@@ -184,11 +184,22 @@ static vsc_wide stiffest(const vsc_model *model, const vsc_patch *patch, size_t 
   return vsc_splat(vsc_material_stiffest(model, material) + tension_stiffness(material));
 }
 
-static void add_cell_stiffness(const vsc_model *model, const vsc_patch *patch, double *stiffness)
+// A bound of what a rate of strain adds to stress, kPa ms.
+static double strongest_damping(const vsc_model *model, const vsc_material *material)
 {
-  const double radial = radial_stiffness(&model->materials[patch->material], patch->family);
+  double most = fmax(material->damping[0], fmax(material->damping[1], material->damping[2]));
+  for (size_t d = 0; d < material->axis_count; d++) most += model->axes[material->first_axis + d].damping;
+  return most + material->viscosity;
+}
+
+static void add_cell_stiffness(const vsc_model *model, const vsc_patch *patch, double rate,
+                               double *stiffness)
+{
+  const vsc_material *material = &model->materials[patch->material];
+  const double radial = radial_stiffness(material, patch->family);
+  const double damping = rate * strongest_damping(model, material);
   for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++) {
-    const vsc_wide modulus = stiffest(model, patch, k) + volume_moduli(model, patch, k);
+    const vsc_wide modulus = stiffest(model, patch, k) + volume_moduli(model, patch, k) + damping;
     for (int c = 0; c < vsc_family_corners(patch->family); c++) {
       const vsc_wide square = gradient_squares(model, patch, k, c);
       for (int l = 0; l < VSC_WIDTH; l++)
@@ -279,17 +290,17 @@ static bool is_taken(const vsc_model *model, const vsc_patch *patch, size_t slot
 }
 
 // The springs of a surface, as those of one face: stiffness int N_i^2 dA on each node.
-static void add_surface_stiffness(const vsc_robin *bed, double *stiffness)
+static void add_surface_stiffness(const vsc_robin *bed, double rate, double *stiffness)
 {
   for (size_t row = 0; row < bed->node_count; row++)
     for (uint32_t k = bed->start[row]; k < bed->start[row + 1]; k++) {
       const double *W = bed->blocks + 12 * (size_t)k;
       if (bed->columns[k] == bed->nodes[row])
-        stiffness[bed->nodes[row]] += bed->stiffness * (W[0] + W[5] + W[10]) / (bed->normal ? 1 : 3);
+        stiffness[bed->nodes[row]] += (bed->stiffness + rate * bed->damping) * (W[0] + W[5] + W[10]) / (bed->normal ? 1 : 3);
     }
 }
 
-void vsc_limit_stiffness(const vsc_model *model, double *stiffness)
+void vsc_limit_stiffness(const vsc_model *model, double rate, double *stiffness)
 {
   memset(stiffness, 0, model->node_count * sizeof *stiffness);
   for (size_t p = 0; p < model->patch_count; p++) {
@@ -298,15 +309,15 @@ void vsc_limit_stiffness(const vsc_model *model, double *stiffness)
     if (patch->family == VSC_TRIANGLES) add_triangle_stiffness(model, patch, stiffness);
     if (patch->family == VSC_BENDS) add_bend_stiffness(model, patch, stiffness);
     if (vsc_patch_is_solid(patch) && model->materials[patch->material].law != VSC_LAW_CLASSICAL)
-      add_cell_stiffness(model, patch, stiffness);
+      add_cell_stiffness(model, patch, rate, stiffness);
   }
-  for (size_t r = 0; r < model->robin_count; r++) add_surface_stiffness(&model->robins[r], stiffness);
+  for (size_t r = 0; r < model->robin_count; r++) add_surface_stiffness(&model->robins[r], rate, stiffness);
 }
 
 double vsc_limit_bound(const vsc_model *model, vsc_scratch *scratch, size_t *slot)
 {
   double *stiffness = scratch->trial, most = 0;
-  vsc_limit_stiffness(model, stiffness);
+  vsc_limit_stiffness(model, 0, stiffness);
   for (size_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];
     if (patch->family == VSC_SPRINGS_ON_EDGES) continue;

@@ -23,7 +23,7 @@ void vsc_limit_refresh(const vsc_model *model, vsc_state *state, double time, in
 double vsc_limit_bound(const vsc_model *model, vsc_scratch *scratch, size_t *slot);
 
 // A bound of each node's stiffness at rest (node_count, mN/mm): the sum over its elements of their stiffest
-// modulus times sum_q V |B_i|^2.
-void vsc_limit_stiffness(const vsc_model *model, double *stiffness);
+// modulus times sum_q V |B_i|^2, with `rate` (1/ms) times the strongest damping of cells and surfaces beside it.
+void vsc_limit_stiffness(const vsc_model *model, double rate, double *stiffness);
 
 #endif

@@ -18,6 +18,7 @@
 #include "model/definition.h"
 #include "model/law_bending.h"
 #include "model/law_membrane.h"
+#include "model/scaled_mass.h"
 #include "model/smoothing.h"
 #include "model/stencil.h"
 
@@ -315,7 +316,8 @@ typedef struct vsc_model {
   double safety;
   vsc_solve_def solve;
   vsc_mass_kind masses;
-  double total_mass;    // mg
+  double total_mass;    // mg, without what mass scaling has added
+  vsc_scaled_mass scaled;
   double total_volume;  // mm^3
   uint64_t hash;        // of everything above: two models with equal hashes move alike
 } vsc_model;

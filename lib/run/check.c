@@ -330,6 +330,10 @@ static void say_step(const vsc_problem *problem, vsc_state *state, FILE *out)
           "(%.4g, %.4g, %.4g), whose own bound is %.4g ms\n",
           dt, model->step > 0 ? "given" : "automatic", state->limit.step, model->safety, what,
           centre[0], centre[1], centre[2], 2 / sqrt(bound));
+  const vsc_scaled_mass *scaled = &model->scaled;
+  if (scaled->step > 0)
+    fprintf(out, "mass       %.3g %% added at %zu nodes, the most %.3g times what one weighs, for steps of %.4g ms\n",
+            100 * scaled->added / model->total_mass, scaled->nodes, scaled->most, scaled->step);
 }
 
 static double memory_bytes(const vsc_model *model)

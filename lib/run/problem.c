@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "io/vtk.h"
 #include "run/job.h"
+#include "solve/mass_scaling.h"
 
 double vsc_wall_seconds(void)
 {
@@ -179,6 +180,8 @@ vsc_status vsc_problem_load(const char *file, const char *const *settings, size_
         file,
         vsc_model_build(made->mesh, made->axes, &made->scene->definition, &made->model, error),
         error);
+  if (status == VSC_OK)
+    status = vsc_in_scene(file, vsc_scale_masses(made->model, &made->scene->definition, error), error);
   if (status == VSC_OK) status = vsc_in_scene(file, vsc_frames_check(made, error), error);
   if (status != VSC_OK) {
     vsc_problem_free(made);

@@ -71,6 +71,11 @@ static void write_body(const vsc_job *job, const vsc_run_result *result, const c
                (double)(problem->fibers.with_data + problem->fibers.filled), ",");
   write_number(file, "held_nodes", (double)model->held_count, ",");
   write_number(file, "mass_g", 1e-3 * model->total_mass, ",");
+  if (model->scaled.step > 0) {
+    write_number(file, "added_mass_part", model->scaled.added / model->total_mass, ",");
+    write_number(file, "most_added_mass_of_a_node", model->scaled.most, ",");
+    write_number(file, "nodes_with_added_mass", (double)model->scaled.nodes, ",");
+  }
   write_number(file, "time_s", 1e-3 * job->state->time, ",");
   write_number(file, "steps", job->state->steps, ",");
   write_number(file, "steps_this_run", result->steps, ",");

@@ -36,7 +36,7 @@ vsc_status vsc_relax_start(const vsc_model *model, vsc_state *state, vsc_error *
     release(r);
     return vsc_fail_memory(error, "relaxation");
   }
-  vsc_limit_stiffness(model, r->mass);
+  vsc_limit_stiffness(model, 0, r->mass);
   for (size_t n = 0; n < model->node_count; n++)
     for (size_t i = 4 * n; i < 4 * n + 4; i++)
       if (model->inverse_mass[i] != 0) r->inverse_mass[i] = 1 / r->mass[n];
