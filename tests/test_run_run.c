@@ -383,6 +383,40 @@ static void test_repeated_with_shorter_steps(void **state)
   assert_true(strtod(summary("torn", "stretches_repeated_with_shorter_steps"), NULL) == 3);
 }
 
+// A damped block that beats every 20 ms stops when a beat repeats the last, says so, and does the same when it
+// is stopped and resumed on the way; without a tolerance that it can reach it goes on to its end.
+static void test_cycles(void **state)
+{
+  (void)state;
+  static const char beating[] =
+      "--set 'materials[0].active.curve={kind: half_sine, duration: 15 ms, period: 20 ms}' --set pressures=[] "
+      "--set 'materials[0].damping={f: 300 Pa s, s: 300 Pa s, n: 300 Pa s}' "
+      "--set 'time={end: 150 ms, cycle: 20 ms, cycle_tolerance: 0.03}' -t 1";
+  char line[600], hash[32];
+  snprintf(line, sizeof line, "$V run block.yaml -o beats %s", beating);
+  must(line);
+  assert_non_null(strstr(said, " repeats the one before to "));
+  const double end = strtod(summary("beats", "time_s"), NULL), beats = strtod(summary("beats", "cycles"), NULL);
+  assert_true(beats >= 2 && beats < 7);
+  assert_close(end, 0.02 * beats, 1e-12, 0);
+  assert_true(strtod(summary("beats", "cycle_difference"), NULL) <= 0.03);
+  assert_string_equal(summary("beats", "outcome"), "\"finished\"");
+  snprintf(hash, sizeof hash, "%s", summary("beats", "state_hash"));
+  snprintf(line, sizeof line, "$V run block.yaml -q -o cut --stop '33 ms' %s", beating);
+  must(line);
+  snprintf(line, sizeof line, "$V run block.yaml -q -o cut --resume %s", beating);
+  must(line);
+  assert_string_equal(summary("cut", "state_hash"), hash);
+  assert_true(strtod(summary("cut", "cycles"), NULL) == beats);
+  snprintf(line, sizeof line, "$V run block.yaml -q -o never %s --set time.cycle_tolerance=1e-12 --set 'time.end=50 ms'",
+           beating);
+  must(line);
+  assert_string_equal(summary("never", "time_s"), "0.05");
+  assert_string_equal(summary("never", "repeats"), "\"no\"");
+  assert_int_equal(shell("$V check block.yaml --set 'time.cycle=1 s'"), 2);
+  assert_non_null(strstr(complained, "time.cycle: 1000 ms; expected a time above zero and before time.end"));
+}
+
 // 0.1 is no binary fraction: 110 multiples of it, none twice, none left out.
 static void test_many_rows(void **state)
 {
@@ -464,6 +498,7 @@ int main(void)
       cmocka_unit_test(test_intervals),
       cmocka_unit_test(test_fixed_steps),
       cmocka_unit_test(test_repeated_with_shorter_steps),
+      cmocka_unit_test(test_cycles),
       cmocka_unit_test(test_many_rows),
       cmocka_unit_test(test_library_call),
       cmocka_unit_test(test_long_names),

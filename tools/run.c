@@ -125,6 +125,9 @@ static void report(const vsc_run_result *result)
       "second), %zu frames\n",
       result->series, result->simulated, result->steps, result->wall_seconds, result->cpu_seconds,
       1e-6 * result->updates_per_second, result->frames);
+  if (result->repeats)
+    printf("cycle %.0f repeats the one before to %.2g: stopped there\n", result->cycles,
+           result->cycle_difference);
 }
 
 int vsc_verb_run(int argc, char **argv)

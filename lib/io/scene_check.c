@@ -221,6 +221,17 @@ static vsc_status check_output(vsc_reading *reading, const vsc_scene *scene)
   return status;
 }
 
+static vsc_status check_cycle(vsc_reading *reading, const vsc_definition *d)
+{
+  if (d->cycle == 0) return VSC_OK;
+  const bool sound = d->cycle > 0 && d->cycle < d->end_time;
+  if (sound && d->cycle_tolerance > 0 && d->cycle_tolerance < 1) return VSC_OK;
+  vsc_enter(reading, "time");
+  vsc_enter(reading, sound ? "cycle_tolerance" : "cycle");
+  if (sound) return vsc_reading_fail(reading, "%g; expected a part of the stroke above 0 and below 1", d->cycle_tolerance);
+  return vsc_reading_fail(reading, "%g ms; expected a time above zero and before time.end, %g ms", d->cycle, d->end_time);
+}
+
 static vsc_status check_pressures(vsc_reading *reading, const vsc_scene *scene)
 {
   if (scene->definition.pressure_count <= VSC_MOST_PRESSURES) return VSC_OK;
@@ -237,6 +248,7 @@ vsc_status vsc_scene_check(vsc_reading *reading, const vsc_scene *scene)
   status = vsc_definition_check(&scene->definition, &found);
   if (status != VSC_OK) return vsc_reading_locate(reading, &found);
   status = check_pressures(reading, scene);
+  if (status == VSC_OK) status = check_cycle(reading, &scene->definition);
   if (status == VSC_OK) status = check_fibers(reading, scene);
   if (status == VSC_OK) status = check_vessels(reading, &scene->definition);
   return status == VSC_OK ? check_output(reading, scene) : status;

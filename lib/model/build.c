@@ -408,6 +408,8 @@ static vsc_status build(const vsc_mesh *mesh, const vsc_axes *axes,
   model->step = definition->step;
   model->force_step = definition->force_step;
   model->safety = definition->safety;
+  model->cycle = definition->cycle;
+  model->cycle_tolerance = definition->cycle_tolerance;
   model->solve = definition->solve;
   model->masses = definition->masses;
   vsc_status status = check_order(mesh, definition, error);

@@ -366,6 +366,8 @@ typedef struct vsc_definition {
   vsc_mass_kind masses;
   double gravity[3];            // mm/ms^2; default 0
   double end_time;              // ms
+  double cycle;                 // ms; a run may stop when a cycle of this length repeats the last; 0: not
+  double cycle_tolerance;       // to which it has to repeat it (run/cycle.h); default 1e-3
   double step;                  // ms; 0: from the stable step; default 0
   bool force_step;              // takes `step` even when it is above the stable one; default false
   double mass_scaling;          // ms; vsc_scale_masses adds mass until steps may be as long; 0: none

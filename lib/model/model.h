@@ -313,7 +313,7 @@ typedef struct vsc_model {
   double end_time;     // ms
   double step;         // ms asked for by the user, or 0
   bool force_step;     // taken even above the stable step
-  double safety;
+  double safety, cycle, cycle_tolerance;  // as the definition has them
   vsc_solve_def solve;
   vsc_mass_kind masses;
   double total_mass;    // mg, without what mass scaling has added

@@ -4,6 +4,7 @@
 #define VSC_RUN_JOB_H
 
 #include "io/pvd.h"
+#include "run/cycle.h"
 #include "run/run.h"
 #include "run/watch.h"
 #include "solve/solve.h"
@@ -18,6 +19,7 @@ typedef struct vsc_job {
   vsc_state *state;
   vsc_watch *watch;
   vsc_pvd *pvd;
+  vsc_cycle cycle;
   double *good;  // what vsc_job_keep_good has kept; owned
   double start_wall, start_cpu, start_steps, start_time;
   double converged_rows;  // of convergence.csv so far

@@ -132,6 +132,8 @@ static vsc_status start(vsc_job *job, vsc_error *error)
 {
   vsc_problem *problem = job->problem;
   vsc_status status = vsc_state_create(problem->model, &job->state, error);
+  if (status == VSC_OK && problem->model->cycle > 0)
+    status = vsc_cycle_begin(problem->model, job->state, &job->cycle, error);
   if (status == VSC_OK) status = vsc_job_make_good(job, error);
   if (status != VSC_OK) return status;
   if (job->options->resume) {
@@ -210,6 +212,22 @@ static vsc_status go_to_look(vsc_job *job, double time, vsc_error *error)
   return status;
 }
 
+// Takes the look into the cycle, and ends that where it ends.
+static void watch_cycle(vsc_job *job, double before)
+{
+  const vsc_model *model = job->problem->model;
+  if (job->cycle.kept == NULL) return;
+  vsc_cycle_look(model, job->state, &job->cycle);
+  if (is_event(before, job->state->time, model->cycle, HUGE_VAL))
+    vsc_cycle_end(model, job->state, &job->cycle);
+}
+
+// Whether the last cycle has repeated the one before.
+static bool repeats(const vsc_job *job)
+{
+  return job->cycle.kept != NULL && job->cycle.difference <= job->problem->model->cycle_tolerance;
+}
+
 // Goes on to the first look at or after `stop`: looks, and with them the steps, are where they
 // would be without a stop.
 static vsc_status advance(vsc_job *job, double stop, vsc_error *error)
@@ -222,15 +240,18 @@ static vsc_status advance(vsc_job *job, double stop, vsc_error *error)
   const bool motion = job->problem->model->solve.kind == VSC_SOLVE_EXPLICIT;
   const double look =
       output->signal_interval / (motion ? ceil(output->signal_interval / LONGEST_LOOK) : 1);
-  while (state->time < stop * (1 - SAME_TIME) && status == VSC_OK) {
+  while (state->time < stop * (1 - SAME_TIME) && status == VSC_OK && !repeats(job)) {
     const double before = state->time;
     double next = next_event(before, look, end);
     next = fmin(next, next_event(state->time, output->frame_interval, end));
     next = fmin(next, next_event(state->time, output->checkpoint_interval, end));
+    next = fmin(next, next_event(state->time, job->problem->model->cycle, end));
     status = go_to_look(job, next, error);
-    if (status == VSC_OK && is_event(before, state->time, output->signal_interval, end))
+    if (status == VSC_OK) watch_cycle(job, before);
+    const bool last = repeats(job);
+    if (status == VSC_OK && (last || is_event(before, state->time, output->signal_interval, end)))
       status = write_row(job, error);
-    if (status == VSC_OK && is_event(before, state->time, output->frame_interval, end))
+    if (status == VSC_OK && (last || is_event(before, state->time, output->frame_interval, end)))
       status = vsc_job_write_frame(job, error);
     if (status == VSC_OK && output->checkpoint_interval > 0 &&
         is_event(before, state->time, output->checkpoint_interval, end))
@@ -251,6 +272,9 @@ static void fill_result(const vsc_job *job, vsc_run_result *result)
   if (result->cpu_seconds > 0)
     result->updates_per_second =
         result->steps * (double)job->problem->model->element_count / result->cpu_seconds;
+  result->cycles = job->cycle.ended;
+  result->cycle_difference = job->cycle.difference;
+  result->repeats = repeats(job);
   result->frames = job->pvd ? vsc_pvd_count(job->pvd) : 0;
   vsc_job_path(job, ".pvd", result->series);
 }
@@ -276,6 +300,7 @@ static void close_job(vsc_job *job)
   vsc_pvd_free(job->pvd);
   vsc_state_free(job->state);
   vsc_free(job->good);
+  vsc_free(job->cycle.kept);
 }
 
 vsc_status vsc_run(vsc_problem *problem, const vsc_run_options *options, vsc_run_result *result,

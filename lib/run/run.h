@@ -27,6 +27,9 @@ typedef struct vsc_run_result {
   double wall_seconds, cpu_seconds;
   double updates_per_second;  // element updates per CPU second, everything included
   size_t frames;              // in the series now
+  double cycles;              // that were watched so far (time.cycle)
+  double cycle_difference;    // of the last from the one before (run/cycle.h)
+  bool repeats;               // the run stopped because it was below time.cycle_tolerance
   char series[VSC_PATH];      // the PVD file
 } vsc_run_result;
 

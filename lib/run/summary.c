@@ -57,7 +57,7 @@ static void write_body(const vsc_job *job, const vsc_run_result *result, const c
   write_string(file, "program", "viscera " VISCERA_VERSION, ",");
   write_string(file, "scene", problem->scene->file, ",");
   write_string(file, "mesh", problem->scene->mesh_file, ",");
-  const bool ended = job->state->time >= model->end_time;
+  const bool ended = job->state->time >= model->end_time || result->repeats;
   write_string(file, "outcome", failure ? "failed" : ended ? "finished" : "stopped", ",");
   if (failure) write_string(file, "reason", failure, ",");
   write_string(file, "kernel", vsc_kernel_set(), ",");
@@ -84,6 +84,11 @@ static void write_body(const vsc_job *job, const vsc_run_result *result, const c
     write_string(file, "conservative", "no: law paper keeps neither energy nor momenta", ",");
   write_number(file, "step_estimates", job->state->limit.refreshes, ",");
   write_newton(job, file);
+  if (model->cycle > 0) {
+    write_number(file, "cycles", result->cycles, ",");
+    write_number(file, "cycle_difference", result->cycle_difference, ",");
+    write_string(file, "repeats", result->repeats ? "yes: stopped before time.end" : "no", ",");
+  }
   if (model->solve.kind == VSC_SOLVE_EXPLICIT)
     write_number(file, "stretches_repeated_with_shorter_steps", job->repeated, ",");
   write_number(file, "most_inverted_elements", job->most_inverted, ",");
