@@ -61,6 +61,34 @@ static inline void must(const char *command)
   if (code != 0) fail_msg("%s: exit code %d: %s", command, code, complained);
 }
 
+// The value of a key of a run's summary.json as it stands there, without its comma; good for four more calls.
+static inline const char *summary_raw(const char *run, const char *key)
+{
+  static char text[PROGRAM_TEXT], values[4][1024];
+  static int next;
+  char name[128], quoted[80], *value = values[next++ % 4];
+  snprintf(name, sizeof name, "%.64s/summary.json", run);
+  load_text(name, text, sizeof text);
+  snprintf(quoted, sizeof quoted, "\"%s\": ", key);
+  const char *found = strstr(text, quoted);
+  if (found == NULL) fail_msg("%s: no %s in '%s'", name, key, text);
+  found += strlen(quoted);
+  size_t length = strcspn(found, "\n");
+  if (length > 0 && found[length - 1] == ',') length--;
+  snprintf(value, sizeof values[0], "%.*s", (int)length, found);
+  return value;
+}
+
+// The same without quotes.
+static inline const char *summary(const char *run, const char *key)
+{
+  char *value = (char *)(uintptr_t)summary_raw(run, key);
+  if (*value != '"') return value;
+  value++;
+  value[strcspn(value, "\"")] = '\0';
+  return value;
+}
+
 static inline int line_count(const char *text)
 {
   int lines = 0;

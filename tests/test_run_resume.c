@@ -6,23 +6,6 @@
 #include "io/pvd.h"
 #include "run/watch.h"
 
-// A text value of a run's summary.json, without its quotes; valid until the fourth next call.
-static const char *summary(const char *run, const char *key)
-{
-  static char text[PROGRAM_TEXT], values[4][1024];
-  static int next;
-  char name[64], quoted[80], *value = values[next++ % 4];
-  snprintf(name, sizeof name, "%s/summary.json", run);
-  load_text(name, text, sizeof text);
-  snprintf(quoted, sizeof quoted, "\"%s\": ", key);
-  const char *found = strstr(text, quoted);
-  if (found == NULL) fail_msg("%s: no %s in '%s'", name, key, text);
-  found += strlen(quoted);
-  found += *found == '"';
-  snprintf(value, sizeof values[0], "%.*s", (int)strcspn(found, "\",\n"), found);
-  return value;
-}
-
 // The same bits in positions, velocities, accelerations, ledger, extrema: all of the checkpoint.
 static void assert_same_checkpoints(const char *run, const char *other)
 {

@@ -4,23 +4,6 @@
 #include "io/pvd.h"
 #include "run/run.h"
 
-// The value of a key of a run's summary.json, as text without its comma; valid until the next call.
-static const char *summary(const char *run, const char *key)
-{
-  static char text[PROGRAM_TEXT];
-  char name[64], quoted[80];
-  snprintf(name, sizeof name, "%s/summary.json", run);
-  load_text(name, text, sizeof text);
-  snprintf(quoted, sizeof quoted, "\"%s\": ", key);
-  char *value = strstr(text, quoted);
-  if (value == NULL) fail_msg("%s: no %s in '%s'", name, key, text);
-  value += strlen(quoted);
-  value[strcspn(value, "\n")] = '\0';
-  const size_t length = strlen(value);
-  if (length > 0 && value[length - 1] == ',') value[length - 1] = '\0';
-  return value;
-}
-
 static vsc_pvd *open_series(const char *file)
 {
   vsc_pvd *series = NULL;
@@ -208,18 +191,18 @@ static void test_summary(void **state)
       high = fmax(high, s.values[r][c]);
     }
     assert_int_equal(
-        sscanf(summary("a", s.names[c]), "{\"min\": %lf, \"max\": %lf}", told, told + 1), 2);
+        sscanf(summary_raw("a", s.names[c]), "{\"min\": %lf, \"max\": %lf}", told, told + 1), 2);
     assert_close(told[0], low, 1e-9, 0);
     assert_close(told[1], high, 1e-9, 0);
   }
-  assert_string_equal(summary("a", "outcome"), "\"finished\"");
-  assert_string_equal(summary("a", "rows"), "21");
-  assert_string_equal(summary("a", "nodes"), "175");
-  assert_string_equal(summary("a", "elements"), "480");
-  assert_string_equal(summary("a", "frames"), "11");
-  assert_string_equal(summary("a", "time_s"), "0.02");
-  assert_string_equal(summary("a", "held_nodes"), "25");
-  assert_close(strtod(summary("a", "mass_g"), NULL), 2 * 1.06, 1e-9, 0);
+  assert_string_equal(summary_raw("a", "outcome"), "\"finished\"");
+  assert_string_equal(summary_raw("a", "rows"), "21");
+  assert_string_equal(summary_raw("a", "nodes"), "175");
+  assert_string_equal(summary_raw("a", "elements"), "480");
+  assert_string_equal(summary_raw("a", "frames"), "11");
+  assert_string_equal(summary_raw("a", "time_s"), "0.02");
+  assert_string_equal(summary_raw("a", "held_nodes"), "25");
+  assert_close(strtod(summary_raw("a", "mass_g"), NULL), 2 * 1.06, 1e-9, 0);
   must("python3 -m json.tool a/summary.json || ! command -v python3");
   must("$V info a/checkpoint.h5");
   assert_holds(said, "position");
@@ -231,8 +214,8 @@ static void test_scene_as_understood(void **state)
   (void)state;
   char hash[64];
   must("$V run a/scene.yaml -o again");
-  snprintf(hash, sizeof hash, "%s", summary("a", "model_hash"));
-  assert_string_equal(summary("again", "model_hash"), hash);
+  snprintf(hash, sizeof hash, "%s", summary_raw("a", "model_hash"));
+  assert_string_equal(summary_raw("again", "model_hash"), hash);
   assert_same_files("again/signals.csv", "a/signals.csv");
 }
 
@@ -354,69 +337,6 @@ static void test_fixed_steps(void **state)
   must("grep -q forced_step fixed/summary.json");
 }
 
-// A support that jerks viscous tissue into motion: the ledger does not see it balance before steps are shorter.
-// A load that tears it to pieces: what is told, and the last good state is kept.
-static void test_repeated_with_shorter_steps(void **state)
-{
-  (void)state;
-  static const char jerk[] =
-      "mesh: {file: block.vtu, unit: mm, region_array: region}\n"
-      "surfaces: [{name: end, boundary: true}]\n"
-      "node_sets:\n"
-      "  - {name: left, node_array: x0, value: 1}\n"
-      "  - {name: right, node_array: x1, value: 1}\n"
-      "materials:\n"
-      "  - {name: muscle, axial: {f: 20 kPa, s: 20 kPa, n: 20 kPa}, viscosity: 60 Pa s, volume_modulus: 500 kPa,\n"
-      "     angular: {fs: 10 kPa, sn: 10 kPa, nf: 10 kPa}}\n"
-      "supports:\n"
-      "  - {set: left, held: [x, y, z]}\n"
-      "  - {set: right, held: [x, y, z], motion: [1 mm, 0 mm, 0 mm], curve: {kind: ramp, duration: 5 ms}}\n"
-      "time: {end: 3 ms}\n"
-      "output: {frames: 5 ms, signals: 1 ms}\n";
-  save_text("jerk.yaml", jerk);
-  must("$V run jerk.yaml -q -o jerk");
-  assert_string_equal(summary("jerk", "outcome"), "\"finished\"");
-  assert_true(strtod(summary("jerk", "stretches_repeated_with_shorter_steps"), NULL) >= 1);
-  assert_int_equal(shell("$V run jerk.yaml -q -o torn --set 'pressures=[{surface: end, peak: 100 MPa}]'"), 3);
-  assert_non_null(strstr(complained, "the energy balance jumped"));
-  assert_non_null(strstr(complained, " energy; element "));
-  assert_true(strtod(summary("torn", "stretches_repeated_with_shorter_steps"), NULL) == 3);
-}
-
-// A damped block that beats every 20 ms stops when a beat repeats the last, says so, and does the same when it
-// is stopped and resumed on the way; without a tolerance that it can reach it goes on to its end.
-static void test_cycles(void **state)
-{
-  (void)state;
-  static const char beating[] =
-      "--set 'materials[0].active.curve={kind: half_sine, duration: 15 ms, period: 20 ms}' --set pressures=[] "
-      "--set 'materials[0].damping={f: 300 Pa s, s: 300 Pa s, n: 300 Pa s}' "
-      "--set 'time={end: 150 ms, cycle: 20 ms, cycle_tolerance: 0.03}' -t 1";
-  char line[600], hash[32];
-  snprintf(line, sizeof line, "$V run block.yaml -o beats %s", beating);
-  must(line);
-  assert_non_null(strstr(said, " repeats the one before to "));
-  const double end = strtod(summary("beats", "time_s"), NULL), beats = strtod(summary("beats", "cycles"), NULL);
-  assert_true(beats >= 2 && beats < 7);
-  assert_close(end, 0.02 * beats, 1e-12, 0);
-  assert_true(strtod(summary("beats", "cycle_difference"), NULL) <= 0.03);
-  assert_string_equal(summary("beats", "outcome"), "\"finished\"");
-  snprintf(hash, sizeof hash, "%s", summary("beats", "state_hash"));
-  snprintf(line, sizeof line, "$V run block.yaml -q -o cut --stop '33 ms' %s", beating);
-  must(line);
-  snprintf(line, sizeof line, "$V run block.yaml -q -o cut --resume %s", beating);
-  must(line);
-  assert_string_equal(summary("cut", "state_hash"), hash);
-  assert_true(strtod(summary("cut", "cycles"), NULL) == beats);
-  snprintf(line, sizeof line, "$V run block.yaml -q -o never %s --set time.cycle_tolerance=1e-12 --set 'time.end=50 ms'",
-           beating);
-  must(line);
-  assert_string_equal(summary("never", "time_s"), "0.05");
-  assert_string_equal(summary("never", "repeats"), "\"no\"");
-  assert_int_equal(shell("$V check block.yaml --set 'time.cycle=1 s'"), 2);
-  assert_non_null(strstr(complained, "time.cycle: 1000 ms; expected a time above zero and before time.end"));
-}
-
 // 0.1 is no binary fraction: 110 multiples of it, none twice, none left out.
 static void test_many_rows(void **state)
 {
@@ -428,7 +348,7 @@ static void test_many_rows(void **state)
   read_signals("many", &s);
   assert_int_equal(s.rows, 52);
   for (int r = 0; r < s.rows; r++) assert_close(s.values[r][0], 1e-4 * r, 1e-11, 0);
-  assert_string_equal(summary("many", "frames"), "18");
+  assert_string_equal(summary_raw("many", "frames"), "18");
 }
 
 typedef struct heard {
@@ -497,8 +417,6 @@ int main(void)
       cmocka_unit_test(test_fibres_of_the_first_frame),
       cmocka_unit_test(test_intervals),
       cmocka_unit_test(test_fixed_steps),
-      cmocka_unit_test(test_repeated_with_shorter_steps),
-      cmocka_unit_test(test_cycles),
       cmocka_unit_test(test_many_rows),
       cmocka_unit_test(test_library_call),
       cmocka_unit_test(test_long_names),

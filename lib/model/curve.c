@@ -10,7 +10,8 @@
 #include "model/curve_driver.h"
 
 enum { INTERVALS_OF_PERIOD = 8192, DRIVEN_INTERVALS_OF_PERIOD = 65536, MOST_INTERVALS = 1 << 20 };
-#define SPACING 0.015625  // ms; of a curve without period, doubled for runs of more than 16 s
+// ms; of a curve without period, doubled for runs of more than 16 s, halved for those below 128 ms
+#define SPACING 0.015625
 
 static double analytic_value(const vsc_curve_def *d, double time)
 {
@@ -99,6 +100,7 @@ static void place_table(const vsc_curve_def *d, double end_time, vsc_curve *curv
   } else {
     curve->spacing = SPACING;
     while (end_time / curve->spacing > MOST_INTERVALS) curve->spacing *= 2;
+    while (end_time / curve->spacing < INTERVALS_OF_PERIOD && curve->spacing > 0x1p-40) curve->spacing /= 2;
     curve->intervals = (size_t)fmax(ceil(end_time / curve->spacing), 1);
   }
 }

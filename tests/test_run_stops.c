@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Why a run goes back, and why it stops before its end.
+#include "block_scene.h"
+
+// A support that jerks viscous tissue into motion: the ledger does not see it balance before steps are shorter.
+// A load that tears it to pieces: what is told, and the last good state is kept.
+static void test_repeated_with_shorter_steps(void **state)
+{
+  (void)state;
+  static const char jerk[] =
+      "mesh: {file: block.vtu, unit: mm, region_array: region}\n"
+      "surfaces: [{name: end, boundary: true}]\n"
+      "node_sets:\n"
+      "  - {name: left, node_array: x0, value: 1}\n"
+      "  - {name: right, node_array: x1, value: 1}\n"
+      "materials:\n"
+      "  - {name: muscle, axial: {f: 20 kPa, s: 20 kPa, n: 20 kPa}, viscosity: 60 Pa s, volume_modulus: 500 kPa,\n"
+      "     angular: {fs: 10 kPa, sn: 10 kPa, nf: 10 kPa}}\n"
+      "supports:\n"
+      "  - {set: left, held: [x, y, z]}\n"
+      "  - {set: right, held: [x, y, z], motion: [1 mm, 0 mm, 0 mm], curve: {kind: ramp, duration: 5 ms}}\n"
+      "time: {end: 3 ms}\n"
+      "output: {frames: 5 ms, signals: 1 ms}\n";
+  save_text("jerk.yaml", jerk);
+  must("$V run jerk.yaml -q -o jerk");
+  assert_string_equal(summary("jerk", "outcome"), "finished");
+  assert_true(strtod(summary("jerk", "stretches_repeated_with_shorter_steps"), NULL) >= 1);
+  assert_int_equal(shell("$V run jerk.yaml -q -o torn --set 'pressures=[{surface: end, peak: 100 MPa}]'"), 3);
+  assert_non_null(strstr(complained, "the energy balance jumped"));
+  assert_non_null(strstr(complained, " energy; element "));
+  assert_true(strtod(summary("torn", "stretches_repeated_with_shorter_steps"), NULL) == 3);
+}
+
+// A damped block that beats every 20 ms stops when a beat repeats the last, says so, and does the same when it
+// is stopped and resumed on the way; without a tolerance that it can reach it goes on to its end.
+static void test_cycles(void **state)
+{
+  (void)state;
+  static const char beating[] =
+      "--set 'materials[0].active.curve={kind: half_sine, duration: 15 ms, period: 20 ms}' --set pressures=[] "
+      "--set 'materials[0].damping={f: 300 Pa s, s: 300 Pa s, n: 300 Pa s}' "
+      "--set 'time={end: 150 ms, cycle: 20 ms, cycle_tolerance: 0.03}' -t 1";
+  char line[600], hash[32];
+  snprintf(line, sizeof line, "$V run block.yaml -o beats %s", beating);
+  must(line);
+  assert_non_null(strstr(said, " repeats the one before to "));
+  const double end = strtod(summary("beats", "time_s"), NULL), beats = strtod(summary("beats", "cycles"), NULL);
+  assert_true(beats >= 2 && beats < 7);
+  assert_close(end, 0.02 * beats, 1e-12, 0);
+  assert_true(strtod(summary("beats", "cycle_difference"), NULL) <= 0.03);
+  assert_string_equal(summary("beats", "outcome"), "finished");
+  snprintf(hash, sizeof hash, "%s", summary("beats", "state_hash"));
+  snprintf(line, sizeof line, "$V run block.yaml -q -o cut --stop '33 ms' %s", beating);
+  must(line);
+  snprintf(line, sizeof line, "$V run block.yaml -q -o cut --resume %s", beating);
+  must(line);
+  assert_string_equal(summary("cut", "state_hash"), hash);
+  assert_true(strtod(summary("cut", "cycles"), NULL) == beats);
+  snprintf(line, sizeof line, "$V run block.yaml -q -o never %s --set time.cycle_tolerance=1e-12 --set 'time.end=50 ms'",
+           beating);
+  must(line);
+  assert_string_equal(summary("never", "time_s"), "0.05");
+  assert_string_equal(summary("never", "repeats"), "no");
+  assert_int_equal(shell("$V check block.yaml --set 'time.cycle=1 s'"), 2);
+  assert_non_null(strstr(complained, "time.cycle: 1000 ms; expected a time above zero and before time.end"));
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_repeated_with_shorter_steps),
+      cmocka_unit_test(test_cycles),
+  };
+  return cmocka_run_group_tests(tests, block_open, program_close);
+}
