@@ -8,6 +8,7 @@
 #include "tools/bench/accuracy.h"
 #include "tools/bench/paper.h"
 #include "tools/bench/throughput.h"
+#include "tools/bench/work_precision.h"
 #include "tools/verbs.h"
 
 typedef struct section {
@@ -31,6 +32,7 @@ static const section sections[] = {
     {"throughput", vsc_bench_throughput, true, "million element updates per second, and what the machine could do"},
     {"growth", vsc_bench_growth, true, "time and memory from a thousand tets to a million"},
     {"skipping", vsc_bench_skipping, true, "what features cost, used and idle"},
+    {"error", vsc_bench_error, true, "error against run time, of a beating ventricle"},
     {"accuracy", vsc_bench_accuracy, false, "problems with known answers: errors and costs (half an hour)"},
     {"paper", bench_paper, false, "Table 1 of Bourguignon & Cani 2000 as CSV"},
 };

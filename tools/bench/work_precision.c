@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/bench/work_precision.h"
+
+#include <getopt.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "tools/bench/child.h"
+#include "tools/bench/machine.h"
+#include "tools/compare_fields.h"
+#include "tools/results.h"
+#include "tools/verbs.h"
+
+static const char help[] =
+    "Usage: viscera bench error [OPTION]...\n"
+    "A beating ventricle: processor seconds for each simulated second against the error, which is the RMS\n"
+    "difference of displacements over the beat (by volume) as a part of the stroke, the largest RMS displacement.\n"
+    "Error in time: against the same mesh in far shorter steps. Error in space and time: against quadratic\n"
+    "tets. Then which setting is the cheapest for 1, 0.1 and 0.01 %. Some minutes; results go to DIR.\n\n"
+    "  -o, --output DIR     [error]\n"
+    "      --scene FILE     [data/benchmarks/beating_ventricle.yaml]\n"
+    "      --quick          the coarsest meshes only\n"
+    "  -h, --help           this text\n\n"
+    "Example:\n"
+    "  viscera bench error --quick -o /tmp/error\n";
+
+
+static const char *const sizes[] = {"--around 16 --along 7 --layers 2", "--around 24 --along 10 --layers 2",
+                                    "--around 32 --along 14 --layers 3"};
+enum { QUICK_SIZES = 1, SIZES = sizeof sizes / sizeof sizes[0] };
+
+// A way to run the beat: settings of the scene, and of the mesh's generator.
+typedef struct way {
+  const char *name, *generate, *settings[4];
+  bool reference;  // what the others are compared with
+  int coarser;     // sizes that it leaves out at the fine end
+} way;
+
+// Of one mesh: how the step matters.
+static const way in_time[] = {
+    {.name = "explicit, safety 0.25", .generate = "", .settings = {"time.safety=0.25"}, .reference = true},
+    {.name = "explicit, safety 0.95", .generate = "", .settings = {"time.safety=0.95"}},
+    {.name = "explicit, safety 0.8 (default)", .generate = "", .settings = {"time.safety=0.8"}},
+    {.name = "explicit, safety 0.4", .generate = "", .settings = {"time.safety=0.4"}},
+    {.name = "explicit, masses scaled, 1.25 steps", .generate = "", .settings = {"time.mass_scaling=0.06 ms", "time.most_added_mass=1"}},
+    {.name = "explicit, masses scaled, 2 steps", .generate = "", .settings = {"time.mass_scaling=0.1 ms", "time.most_added_mass=2"}},
+    {.name = "implicit, accuracy 1e-3", .generate = "", .settings = {"solve=implicit", "solver.accuracy=1e-3"}},
+    {.name = "implicit, accuracy 1e-4 (default)", .generate = "", .settings = {"solve=implicit"}},
+    {.name = "implicit, accuracy 1e-5", .generate = "", .settings = {"solve=implicit", "solver.accuracy=1e-5"}},
+    {.name = "implicit, accuracy 1e-6", .generate = "", .settings = {"solve=implicit", "solver.accuracy=1e-6"}},
+};
+
+// Of several meshes: what the element matters. The reference is the finest of its kind.
+#define CURVED                                                                                          \
+  "mesh.curved=[{surface: endo, ellipsoid: {radii: [26 mm, 26 mm, 66 mm], centre: [0 mm, 0 mm, 0 mm]}}, " \
+  "{surface: epi, ellipsoid: {radii: [35.5 mm, 35.5 mm, 73 mm], centre: [0 mm, 0 mm, 0 mm]}}]"
+static const way in_space[] = {
+    {.name = "quadratic tets, curved, implicit 1e-5", .generate = "",
+     .settings = {"mesh.order=2", "solve=implicit", "solver.accuracy=1e-5", CURVED}, .reference = true},
+    {.name = "tets, node-averaged", .generate = "", .settings = {NULL}},
+    {.name = "tets, each alone", .generate = "", .settings = {"volume=element"}},
+    {.name = "tets, smoothed", .generate = "", .settings = {"tets=smoothed"}, .coarser = 1},
+    {.name = "hexahedra", .generate = "--element hex", .settings = {NULL}},
+};
+
+typedef struct measured {
+  char name[96];
+  double elements, cost, error;  // processor s a simulated s; percent of the stroke
+} measured;
+
+typedef struct wish {
+  const char *output, *scene;
+  bool quick;
+  FILE *csv;
+} wish;
+
+// ---- one run
+
+static vsc_status run_verb(int (*verb)(int, char **), char *text, const char *folder, vsc_child_cost *cost,
+                           vsc_error *error)
+{
+  char *words[VSC_CHILD_WORDS], log[PATH_MAX];
+  const int count = vsc_child_split(text, 0, words);
+  words[count] = NULL;
+  snprintf(log, sizeof log, "%s/log.txt", folder);
+  return vsc_child(verb, words, log, 2000, cost, error);
+}
+
+static vsc_status run(const wish *wish, const way *way, int size, const char *folder, vsc_child_cost *cost,
+                      vsc_error *error)
+{
+  char text[2 * PATH_MAX], mesh[PATH_MAX], scene[PATH_MAX], setting[PATH_MAX + 16];
+  snprintf(mesh, sizeof mesh, "%.4000s.vtu", folder);
+  snprintf(text, sizeof text, "generate lv %s %s -o %s", sizes[size], way->generate, mesh);
+  vsc_status status = run_verb(vsc_verb_generate, text, wish->output, cost, error);
+  if (status != VSC_OK) return status;
+  snprintf(scene, sizeof scene, "%s", wish->scene);
+  snprintf(setting, sizeof setting, "mesh.file=%s", mesh);
+  char *words[VSC_CHILD_WORDS] = {"run", "-q", "-o", (char *)folder, "-t", "1", "--set", setting};
+  int count = 8;
+  for (size_t k = 0; k < 4 && way->settings[k] != NULL; k++) {
+    words[count++] = "--set";
+    words[count++] = (char *)way->settings[k];
+  }
+  words[count++] = scene;
+  words[count] = NULL;
+  char log[PATH_MAX];
+  snprintf(log, sizeof log, "%s/log.txt", wish->output);
+  return vsc_child(vsc_verb_run, words, log, 2000, cost, error);
+}
+
+// ---- one error
+
+static const vsc_norms *displacement(const vsc_comparison *all)
+{
+  for (size_t k = 0; k < all->count; k++)
+    if (strcmp(all->arrays[k].name, "displacement") == 0) return &all->arrays[k];
+  return NULL;
+}
+
+// Percent of the stroke by which the displacements of two results differ over the beat.
+static vsc_status compare(const char *folder, const char *reference, double *error_percent, vsc_error *error)
+{
+  vsc_results a, b;
+  vsc_pair pair = {0};
+  double squares = 0, volume = 0, stroke = 0;
+  vsc_status status = vsc_results_open(folder, &a, error);
+  if (status != VSC_OK) return status;
+  status = vsc_results_open(reference, &b, error);
+  if (status != VSC_OK) {
+    vsc_results_close(&a);
+    return status;
+  }
+  for (size_t f = 0; f < vsc_pvd_count(a.series) && status == VSC_OK; f++) {
+    char file_a[2 * VSC_RESULT_PATH], file_b[2 * VSC_RESULT_PATH];
+    const size_t g = vsc_results_nearest(&b, vsc_pvd_time(a.series, f));
+    vsc_comparison all = {0};
+    snprintf(file_a, sizeof file_a, "%s/%s", folder, vsc_pvd_frame(a.series, f));
+    snprintf(file_b, sizeof file_b, "%s/%s", reference, vsc_pvd_frame(b.series, g));
+    status = vsc_compare_files(&all, &pair, file_a, file_b, error);
+    const vsc_norms *norms = displacement(&all);
+    if (status == VSC_OK && norms != NULL && norms->volume > 0) {
+      squares += norms->volume_squares;
+      volume += norms->volume;
+      stroke = fmax(stroke, sqrt(norms->volume_reference / norms->volume));
+    }
+    vsc_comparison_free(&all);
+  }
+  vsc_pair_free(&pair);
+  vsc_results_close(&a);
+  vsc_results_close(&b);
+  *error_percent = volume > 0 && stroke > 0 ? 100 * sqrt(squares / volume) / stroke : NAN;
+  return status;
+}
+
+// Simulated seconds and elements of a result, from its series and its summary.
+static double number_of(const char *folder, const char *key)
+{
+  char file[PATH_MAX + 32], line[512], quoted[64];
+  double value = NAN;
+  snprintf(file, sizeof file, "%s/summary.json", folder);
+  snprintf(quoted, sizeof quoted, "\"%s\": %%lf", key);
+  FILE *summary = fopen(file, "r");
+  while (summary != NULL && fgets(line, sizeof line, summary) != NULL)
+    if (sscanf(line + strspn(line, " "), quoted, &value) == 1) break;
+  if (summary != NULL) fclose(summary);
+  return value;
+}
+
+// ---- tables
+
+static void say(const wish *wish, const char *table, const measured *m)
+{
+  printf("  %-44s %8.0f %12.3g", m->name, m->elements, m->cost);
+  if (isnan(m->error))
+    printf("   reference\n");
+  else
+    printf(" %10.3g %%\n", m->error);
+  fflush(stdout);
+  if (wish->csv != NULL)
+    fprintf(wish->csv, "%s,\"%s\",%.0f,%.6g,%.6g\n", table, m->name, m->elements, m->cost, m->error);
+}
+
+static void say_cheapest(const measured *all, size_t count)
+{
+  static const double wanted[] = {1, 0.1, 0.01};
+  for (size_t w = 0; w < sizeof wanted / sizeof wanted[0]; w++) {
+    const measured *best = NULL;
+    for (size_t k = 0; k < count; k++)
+      if (all[k].error <= wanted[w] && (best == NULL || all[k].cost < best->cost)) best = &all[k];
+    if (best == NULL)
+      printf("  for %g %%: none of these\n", wanted[w]);
+    else
+      printf("  for %g %%: %s, %.0f elements: %.3g processor s a simulated s\n", wanted[w], best->name, best->elements,
+             best->cost);
+  }
+}
+
+// Runs a way on a mesh, and tells it against the reference (its folder; NULL: it is the reference).
+static vsc_status take(const wish *wish, const char *table, const way *way, int size, size_t number,
+                       const char *reference, char folder[PATH_MAX], measured *m, vsc_error *error)
+{
+  vsc_child_cost cost;
+  snprintf(folder, PATH_MAX, "%.3900s/%s_%zu_%d", wish->output, table, number, size);
+  *m = (measured){.error = NAN};
+  snprintf(m->name, sizeof m->name, "%s", way->name);
+  vsc_status status = run(wish, way, size, folder, &cost, error);
+  if (status != VSC_OK) return status;
+  m->elements = number_of(folder, "elements");
+  m->cost = cost.cpu_seconds / number_of(folder, "time_s");
+  if (reference != NULL) status = compare(folder, reference, &m->error, error);
+  if (status == VSC_OK) say(wish, table, m);
+  return status;
+}
+
+static vsc_status bench_time(const wish *wish, vsc_error *error)
+{
+  enum { WAYS = sizeof in_time / sizeof in_time[0] };
+  measured all[WAYS];
+  char reference[PATH_MAX], folder[PATH_MAX];
+  const int size = wish->quick ? 0 : 1;
+  vsc_status status = VSC_OK;
+  puts("error in time, one mesh                           elements   CPU s / s    error of the stroke");
+  for (size_t k = 0; k < WAYS && status == VSC_OK; k++)
+    status = take(wish, "time", &in_time[k], size, k, k > 0 ? reference : NULL, k > 0 ? folder : reference, &all[k],
+                  error);
+  if (status == VSC_OK) say_cheapest(all + 1, WAYS - 1);
+  return status;
+}
+
+static vsc_status bench_space(const wish *wish, vsc_error *error)
+{
+  enum { WAYS = sizeof in_space / sizeof in_space[0] };
+  measured all[WAYS * SIZES];
+  char reference[PATH_MAX], folder[PATH_MAX];
+  const int most = wish->quick ? QUICK_SIZES : SIZES;
+  size_t count = 0;
+  measured m;
+  puts("\nerror in space and time                          elements   CPU s / s    error of the stroke");
+  const int finest = wish->quick ? 0 : most - 1 - in_space[0].coarser;
+  vsc_status status = take(wish, "space", &in_space[0], finest, 0, NULL, reference, &m, error);
+  for (size_t k = 0; k < WAYS && status == VSC_OK; k++)
+    for (int size = 0; size < most - in_space[k].coarser + (wish->quick ? in_space[k].coarser : 0) && status == VSC_OK;
+         size++) {
+      if (in_space[k].reference && size == finest) continue;
+      status = take(wish, "space", &in_space[k], size, k, reference, folder, &all[count], error);
+      count += status == VSC_OK;
+    }
+  if (status == VSC_OK) say_cheapest(all, count);
+  return status;
+}
+
+int vsc_bench_error(int argc, char **argv)
+{
+  static const struct option options[] = {{"output", required_argument, NULL, 'o'},
+                                          {"scene", required_argument, NULL, 's'},
+                                          {"quick", no_argument, NULL, 'q'},
+                                          {"help", no_argument, NULL, 'h'},
+                                          {0}};
+  wish wish = {.output = "error", .scene = "data/benchmarks/beating_ventricle.yaml"};
+  for (int c; (c = getopt_long(argc, argv, "o:h", options, NULL)) != -1;) {
+    if (c == 'o') wish.output = optarg;
+    else if (c == 's') wish.scene = optarg;
+    else if (c == 'q') wish.quick = true;
+    else if (c == 'h') return fputs(help, stdout) < 0 ? 4 : 0;
+    else return 2;
+  }
+  char file[PATH_MAX];
+  snprintf(file, sizeof file, "%.4000s/error.csv", wish.output);
+  mkdir(wish.output, 0777);
+  wish.csv = fopen(file, "w");
+  if (wish.csv == NULL) {
+    fprintf(stderr, "viscera bench error: %s: cannot be written\n", file);
+    return 4;
+  }
+  fprintf(wish.csv, "table,what,elements,processor seconds a simulated second,percent of the stroke\n");
+  vsc_machine_say(stdout);
+  vsc_error error;
+  vsc_status status = bench_time(&wish, &error);
+  if (status == VSC_OK) status = bench_space(&wish, &error);
+  if (status != VSC_OK) fprintf(stderr, "viscera: %s\n", error.text);
+  if (fclose(wish.csv) != 0 && status == VSC_OK) return 4;
+  return (int)status;
+}
