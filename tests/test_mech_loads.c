@@ -3,6 +3,7 @@
 #include "mech/loads.h"
 
 #include "base/mem.h"
+#include "base/vec3.h"
 #include "model/robin.h"
 #include "octahedron.h"
 
@@ -368,11 +369,67 @@ static void curved_faces_have_curved_normals(void **state)
   close_loaded(&l);
 }
 
+static double area_at_rest(const loaded *l)
+{
+  double area = 0;
+  for (int face = 0; face < OCTA_FACES; face++) {
+    double a[3], b[3], n[3];
+    const double *corner[3];
+    for (int i = 0; i < 3; i++) corner[i] = l->rest + 4 * l->o.triangles[3 * face + i];
+    vsc_subtract(corner[1], corner[0], a);
+    vsc_subtract(corner[2], corner[0], b);
+    vsc_cross(a, b, n);
+    area += 0.5 * vsc_norm(n);
+  }
+  return area;
+}
+
+static void no_block(void *context, uint32_t i, uint32_t j, const double K[9])
+{
+  (void)i, (void)j, (void)K;
+  ++*(int *)context;
+}
+
+// A dead traction: the whole force is traction times area at rest, wherever the nodes have gone; it has no tangent;
+// its work is that of its forces.
+static void dead_tractions_stay(void **state)
+{
+  (void)state;
+  for (int nodes = 3; nodes <= 6; nodes += 3) {
+    loaded l;
+    double kept[COUNT], sum[3] = {0}, bulk[VSC_FACE_NODES * OCTA_FACES * 6] = {0};
+    int blocks = 0;
+    open_loaded(&l, 0);
+    push(&l, nodes);
+    const double way[3] = {2.0 / 3, -2.0 / 3, 1.0 / 3};
+    memcpy(l.pressure.direction, way, sizeof way);
+    forces(&l);
+    memcpy(kept, l.force, sizeof kept);
+    for (size_t n = 0; n < OCTA_NODES; n++)
+      for (size_t i = 0; i < 3; i++) sum[i] += l.force[4 * n + i];
+    for (int i = 0; i < 3; i++) assert_close(sum[i], PRESSURE * area_at_rest(&l) * way[i], 1e-13, 0);
+    vsc_loads_pressure_work(&l.model, l.x, 0, bulk);
+    double expected = 0;
+    for (size_t k = 0; k < COUNT; k++) {
+      const double step = k % 4 < 3 ? 0.3 * sin(1.7 * (double)k) : 0;
+      l.x[k] += step;
+      expected += step * kept[k];
+    }
+    forces(&l);
+    assert_memory_equal(l.force, kept, sizeof kept);
+    assert_close(vsc_loads_pressure_work(&l.model, l.x, 0, bulk), expected, 1e-12, 0);
+    vsc_loads_tangent(&l.model, l.x, 0, 1, 1, 0, no_block, &blocks);
+    assert_int_equal(blocks, 0);
+    close_loaded(&l);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(pressure_is_the_gradient_of_volume),
       cmocka_unit_test(closed_surfaces_are_not_moved),
+      cmocka_unit_test(dead_tractions_stay),
       cmocka_unit_test(three_nodes_share_the_face),
       cmocka_unit_test(tangent_is_the_difference_of_forces),
       cmocka_unit_test(all_blocks_are_the_derivative_of_the_force),

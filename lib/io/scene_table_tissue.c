@@ -301,6 +301,8 @@ static const vsc_row vsc_pressure_group_rows[] = {
      .meaning = "one of surfaces, or boundary; pushed against its outward normal"},
     {"peak", QUANTITY(vsc_pressure_def, peak, VSC_PRESSURE), .needed = VSC_ALWAYS,
      .text = "16 kPa", .meaning = "where the curve is 1"},
+    {"direction", VECTOR(vsc_pressure_def, direction, VSC_NUMBER), .commented = true, .text = "[0, 1, 0]",
+     .meaning = "a dead traction instead: keeps this direction, per area at rest; absent: along the moving normal"},
     {"curve", PART(offsetof(vsc_pressure_def, curve), vsc_curve_group),
      .meaning = "of time; absent: constant"},
 };

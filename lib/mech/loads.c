@@ -56,15 +56,46 @@ static void gather_face(const vsc_pressure *load, size_t face, const double *x,
   vsc_face_places(node, mid, x, 4, at);
 }
 
-// ---- pressures
+// ---- pressures and dead tractions
 
-static void add_pressure(const vsc_pressure *load, double pressure, const double *x, double *force)
+static bool is_dead(const vsc_pressure *load)
+{
+  return vsc_norm(load->direction) > 0;
+}
+
+// f_i = d int N_i dA of a face at rest.
+static void drag(const vsc_face_rule *rule, const double rest[][3], const double direction[3], double f[][3])
+{
+  memset(f, 0, (size_t)rule->nodes * sizeof *f);
+  for (int q = 0; q < rule->points; q++) {
+    double t1[3], t2[3], n[3];
+    vsc_face_tangents(rule, q, rest, t1, t2, n);
+    for (int i = 0; i < rule->nodes; i++)
+      for (int k = 0; k < 3; k++) f[i][k] += rule->weight[q] * rule->N[q][i] * vsc_norm(n) * direction[k];
+  }
+}
+
+// The forces of a face under a load of 1 kPa, and where its nodes are.
+static void face_forces(const vsc_model *model, const vsc_pressure *load, size_t face, const double *x,
+                        uint32_t node[VSC_FACE_NODES], double at[][3], double f[][3])
+{
+  double rest[VSC_FACE_NODES][3];
+  gather_face(load, face, x, node, at);
+  if (!is_dead(load)) {
+    vsc_face_push(&load->rule, (const double(*)[3])at, f);
+    return;
+  }
+  gather_face(load, face, model->rest, node, rest);
+  drag(&load->rule, (const double(*)[3])rest, load->direction, f);
+}
+
+static void add_pressure(const vsc_model *model, const vsc_pressure *load, double pressure, const double *x,
+                         double *force)
 {
   for (size_t face = 0; face < load->triangle_count; face++) {
     uint32_t node[VSC_FACE_NODES];
     double at[VSC_FACE_NODES][3], f[VSC_FACE_NODES][3];
-    gather_face(load, face, x, node, at);
-    vsc_face_push(&load->rule, (const double(*)[3])at, f);
+    face_forces(model, load, face, x, node, at, f);
     for (int i = 0; i < load->rule.nodes; i++)
       for (int k = 0; k < 3; k++) force[4 * (size_t)node[i] + (size_t)k] += pressure * f[i][k];
   }
@@ -113,8 +144,7 @@ double vsc_loads_pressure_work(const vsc_model *model, const double *x, double t
     for (size_t face = 0; face < load->triangle_count; face++) {
       uint32_t node[VSC_FACE_NODES];
       double at[VSC_FACE_NODES][3], f[VSC_FACE_NODES][3];
-      gather_face(load, face, x, node, at);
-      vsc_face_push(&load->rule, (const double(*)[3])at, f);
+      face_forces(model, load, face, x, node, at, f);
       for (int i = 0; i < load->rule.nodes; i++, push += 6)
         for (int k = 0; k < 3; k++) {
           const double force = pressure * f[i][k];
@@ -222,7 +252,7 @@ void vsc_loads_force(const vsc_model *model, const double *x, const double *w, d
 {
   for (size_t p = 0; p < model->pressure_count; p++) {
     const double pressure = load * vsc_model_pressure(model, p, time);
-    if (pressure != 0) add_pressure(&model->pressures[p], pressure, x, force);
+    if (pressure != 0) add_pressure(model, &model->pressures[p], pressure, x, force);
   }
   for (size_t r = 0; r < model->robin_count; r++)
     add_bed(model, &model->robins[r], x, model->robins[r].damping > 0 ? w : NULL, force);
@@ -236,7 +266,7 @@ void vsc_loads_tangent(const vsc_model *model, const double *x, double time, dou
 {
   for (size_t p = 0; p < model->pressure_count; p++) {
     const double factor = stiffness_factor * load * vsc_model_pressure(model, p, time);
-    if (factor != 0) pressure_tangent(&model->pressures[p], factor, x, sink, context);
+    if (factor != 0 && !is_dead(&model->pressures[p])) pressure_tangent(&model->pressures[p], factor, x, sink, context);
   }
   for (size_t r = 0; r < model->robin_count; r++) {
     const vsc_robin *bed = &model->robins[r];

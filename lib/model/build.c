@@ -248,6 +248,7 @@ static uint64_t hash_loads(const vsc_model *model, uint64_t hash)
     hash = vsc_hash(hash, load->triangles, 3 * load->triangle_count * sizeof(uint32_t));
     if (load->mid) hash = vsc_hash(hash, load->mid, 3 * load->triangle_count * sizeof(uint32_t));
     hash = vsc_hash(hash, &load->peak, sizeof load->peak);
+    hash = vsc_hash(hash, load->direction, sizeof load->direction);
     hash = vsc_hash(hash, &load->curve.hash, sizeof load->curve.hash);
   }
   for (size_t r = 0; r < model->robin_count; r++) {

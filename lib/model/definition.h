@@ -296,6 +296,8 @@ typedef struct vsc_robin_def {
 typedef struct vsc_pressure_def {
   char surface[VSC_NAME];  // surface it acts on, pushing the tissue against the outward normal
   double peak;             // kPa at curve value 1
+  double direction[3];     // of any length: the load keeps it, per area at rest (a dead traction); default
+                           // 0 0 0: it is a pressure, along the moving normal
   vsc_curve_def curve;
 } vsc_pressure_def;
 

@@ -359,6 +359,7 @@ static void check_loads(checker *c, const vsc_definition *d)
     enter(c, "pressures", i, "");
     need_known(c, "surface", d->pressures[i].surface, d->surfaces, d->surface_count, true);
     need_finite(c, "peak", d->pressures[i].peak, "kPa");
+    check_finite3(c, "direction", d->pressures[i].direction, "");
     check_curve(c, &d->pressures[i].curve);
   }
   for (size_t i = 0; i < d->robin_count; i++) {

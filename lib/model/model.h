@@ -175,6 +175,7 @@ typedef struct vsc_pressure {
                         // faces have three nodes; owned
   vsc_face_rule rule;   // of its faces, for fluxes
   double peak;          // kPa
+  double direction[3];  // of a dead traction, unit; 0 0 0: pressure along the moving normal
   vsc_curve curve;      // owned
 } vsc_pressure;
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/vec3.h"
 #include "model/masses.h"
 #include "model/robin.h"
 #include "model/terms.h"
@@ -165,6 +166,8 @@ static vsc_status add_pressure(const vsc_definition *definition, size_t p, const
   vsc_pressure *load = &model->pressures[p];
   vsc_copy_name(load->surface, def->surface);
   load->peak = def->peak;
+  memcpy(load->direction, def->direction, sizeof load->direction);
+  if (vsc_norm(load->direction) > 0) vsc_normalize(load->direction);
   load->triangle_count = triangles->count;
   load->triangles = renumbered(triangles->triangles, 3 * triangles->count, number);
   if (triangles->mid) load->mid = renumbered(triangles->mid, 3 * triangles->count, number);

@@ -246,7 +246,8 @@ static void say_terms(const vsc_model *model, FILE *out)
           model->terms.active == VSC_ACTIVE_TENSION ? "; active tension" : "",
           model->terms.gravity ? "; gravity" : "");
   for (size_t p = 0; p < model->pressure_count; p++)
-    fprintf(out, "; pressure on %s up to %g kPa (%zu triangles)", model->pressures[p].surface,
+    fprintf(out, "; %s on %s up to %g kPa (%zu triangles)",
+            vsc_norm(model->pressures[p].direction) > 0 ? "dead traction" : "pressure", model->pressures[p].surface,
             model->pressures[p].peak * vsc_curve_peak(&model->pressures[p].curve),
             model->pressures[p].triangle_count);
   fputc('\n', out);
