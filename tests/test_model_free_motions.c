@@ -52,11 +52,37 @@ static void springs_on_a_surface_hold_too(void **state)
   }
 }
 
+// The same springs on the end of a bar that lies askew: three ways, none along an axis, and turns are turns.
+static void an_oblique_bar_slides_and_turns(void **state)
+{
+  (void)state;
+  small_body body;
+  char text[128];
+  vsc_selector surface = {.kind = VSC_SELECT_NODE_ARRAY, .name = "end", .array = "x1", .low = 1, .high = 1};
+  vsc_robin_def robin = {.surface = "end", .stiffness = 1, .normal = true};
+  vsc_mesh *mesh = block_of(3, 2, 2, 1, 0);
+  for (size_t n = 0; n < mesh->node_count; n++) {
+    double *x = mesh->nodes + 3 * n, at[3] = {x[0], x[1], x[2]};
+    x[0] = sqrt(0.5) * (at[0] - at[1]);
+    x[1] = sqrt(0.5) * (at[0] + at[1]);
+  }
+  body_open(&body, mesh, 50);
+  body.definition.surfaces = &surface;
+  body.definition.surface_count = 1;
+  body.definition.robins = &robin;
+  body.definition.robin_count = 1;
+  body_build(&body);
+  assert_int_equal(vsc_free_motions(body.model, text, sizeof text), 3);
+  assert_string_equal(text, "move in 3 ways as one rigid thing");
+  body_close(&body);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(supports_leave_what_they_do_not_hold),
       cmocka_unit_test(springs_on_a_surface_hold_too),
+      cmocka_unit_test(an_oblique_bar_slides_and_turns),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
