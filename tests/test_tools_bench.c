@@ -42,7 +42,10 @@ static void specimens_are_what_they_say(void **state)
     assert_true(fabs(cube - round(cube)) < 1e-12);
     if (vsc_specimen_time(&specimens[k], mesh, false, &cost, &error) != VSC_OK) fail_msg("%s", error.text);
     assert_true(cost.elements == mesh->element_count && cost.nodes == mesh->node_count);
-    assert_true(cost.one > 0 && cost.bytes > 100.0 * (double)cost.elements);
+    assert_true(cost.one > 0);
+#ifndef __SANITIZE_ADDRESS__  // whose allocator does not say what it has given out
+    assert_true(cost.bytes > 100.0 * (double)cost.elements);
+#endif
     vsc_mesh_free(mesh);
   }
 }
