@@ -205,14 +205,18 @@ static vsc_status check_finite(const vsc_model *model, const vsc_state *state, v
       state->time, state->steps, model->mesh_node[bad], rest[0], rest[1], rest[2]);
 }
 
-// Steps on to `stop` in equal steps not longer than the stable one.
-static vsc_status step_to(const vsc_model *model, vsc_state *state, double stop, vsc_error *error)
+// Steps on to `stop` or not quite as far, by what divides the way to `until` into equal steps not longer than
+// the stable one. So steps keep their length for as long as the stable one does: steps that change their length
+// to and fro, even far below it, feed energy to vibrations (parametric resonance).
+static vsc_status step_to(const vsc_model *model, vsc_state *state, double stop, double until,
+                          vsc_error *error)
 {
   const double start = state->time;
   const double longest = state->limit.caution * state->limit.step;
-  const double steps = fmax(ceil((stop - start) / longest * (1 - 1e-12)), 1);
-  const vsc_status status = vsc_steps(model, state, (stop - start) / steps, steps, error);
-  if (status == VSC_OK) state->time = stop;
+  const double all = fmax(ceil((until - start) / longest * (1 - 1e-12)), 1), dt = (until - start) / all;
+  const double steps = fmin(fmax(floor((stop - start) / dt * (1 + 1e-12)), 1), all);
+  const vsc_status status = vsc_steps(model, state, dt, steps, error);
+  if (status == VSC_OK) state->time = steps == all ? until : start + steps * dt;
   return status;
 }
 
@@ -236,7 +240,7 @@ vsc_status vsc_advance(const vsc_model *model, vsc_state *state, double until, v
     }
     const double stop = fmin(until, state->limit.time + state->limit.interval);
     vsc_status status = model->step > 0 ? fixed_steps_to(model, state, stop, error)
-                                        : step_to(model, state, stop, error);
+                                        : step_to(model, state, stop, until, error);
     if (status == VSC_OK) status = check_finite(model, state, error);
     if (status != VSC_OK) return status;
   }
