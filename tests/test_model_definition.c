@@ -137,6 +137,9 @@ SPOIL(delay_unit, d->materials[0].active.delay_unit = 0)
 SPOIL(one_point, d->materials[0].active.curve.point_count = 1)
 SPOIL(falling, d->materials[0].active.curve.times[2] = 100)
 SPOIL(table_nan, d->materials[0].active.curve.values[1] = NAN)
+SPOIL(velocity_of_equilibrium, vsc_copy_name(d->velocity.array, "v");
+      d->solve.kind = VSC_SOLVE_EQUILIBRIUM)
+SPOIL(velocity_unit, vsc_copy_name(d->velocity.array, "v"); d->velocity.unit = 0)
 SPOIL(duration, d->pressures[0].curve.duration = 0)
 SPOIL(period, d->pressures[0].curve.period = 200)
 SPOIL(cut_off, d->pressures[0].curve.start = 600; d->pressures[0].curve.period = 800)
@@ -265,6 +268,8 @@ static void every_rule_names_its_key(void **state)
       {robin_damping, "robin[0].damping: ", "zero or more"},
       {robin_nothing, "robin[0].stiffness: 0 kPa/mm: ", "above zero"},
       {pressure_surface, "pressures[0].surface: ", "the nearest is endo"},
+      {velocity_of_equilibrium, "initial_velocity.node_array: \"v\": ", "explicit or implicit"},
+      {velocity_unit, "initial_velocity.unit: 0 m/s: ", "not zero"},
       {gravity, "gravity: ", "finite"},
       {end_time, "time.end: 0 ms: ", "above zero"},
       {step, "time.step: -0.1 ms: ", "zero or more"},

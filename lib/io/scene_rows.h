@@ -38,6 +38,7 @@ extern const vsc_group vsc_material_group;  // an item of materials; vsc_materia
 extern const vsc_group vsc_support_group;   // an item of supports; vsc_support_def
 extern const vsc_group vsc_robin_group;     // an item of robin; vsc_robin_def
 extern const vsc_group vsc_pressure_group;  // an item of pressures; vsc_pressure_def
+extern const vsc_group vsc_velocity_group;  // vsc_velocity_def
 extern const vsc_group vsc_membrane_group;  // an item of membranes; vsc_membrane_def
 extern const vsc_group vsc_obstacle_group;  // an item of obstacles; vsc_obstacle_def
 extern const vsc_group vsc_law_paper_group;      // vsc_material_def

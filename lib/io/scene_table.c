@@ -204,6 +204,8 @@ static const vsc_row vsc_scene_group_rows[] = {
      .text = "[0 m/s2, 0 m/s2, 0 m/s2]", .meaning = "default none"},
     {"pressures", SCENE_PARTS(pressures, pressure_count, vsc_pressure_group),
      .meaning = "that follow their surface"},
+    {"initial_velocity", PART(offsetof(vsc_scene, definition.velocity), vsc_velocity_group),
+     .commented = true, .meaning = "of the nodes at the start; absent: at rest"},
     {"solve", CHOICE(vsc_scene, definition.solve.kind, solve_kinds), .text = "explicit",
      .meaning = "explicit or implicit (motion), or equilibrium (forces balance, no inertia)"},
     {"solver", PART(offsetof(vsc_scene, definition), solver), .commented = true,

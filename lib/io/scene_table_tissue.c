@@ -313,3 +313,10 @@ static void start_pressure(void *target)
 }
 
 GROUP(, vsc_pressure_group, -1, .size = sizeof(vsc_pressure_def), .start = start_pressure);
+
+static const vsc_row vsc_velocity_group_rows[] = {
+    {"node_array", NAME(vsc_velocity_def, array), .needed = VSC_ALWAYS, .text = "velocity",
+     .meaning = "node array of the mesh with three numbers a node"},
+    {"unit", UNIT(vsc_velocity_def, unit, VSC_VELOCITY), .text = "1 m/s", .meaning = "of its numbers"},
+};
+GROUP(, vsc_velocity_group, -1, .size = sizeof(vsc_velocity_def));

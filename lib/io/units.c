@@ -36,6 +36,7 @@ static const quantity quantities[] = {
                        "a viscosity",
                        "10 Pa s",
                        {"Pa s", "kPa ms", "kPa s", "mPa s", "MPa ms", "poise"}},
+    [VSC_VELOCITY] = {"mm/ms", "a velocity", "0.5 m/s", {"m/s", "mm/ms", "mm/s", "cm/s", "km/h"}},
     [VSC_ACCELERATION] = {"mm/ms2",
                           "an acceleration",
                           "9.81 m/s2",

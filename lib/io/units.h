@@ -11,6 +11,7 @@ typedef enum vsc_quantity {
   VSC_PRESSURE,      // kPa (also moduli and tensions)
   VSC_DENSITY,       // mg/mm^3
   VSC_VISCOSITY,     // kPa ms
+  VSC_VELOCITY,      // mm/ms
   VSC_ACCELERATION,  // mm/ms^2
   VSC_STIFFNESS,     // mN/mm, of a spring
   VSC_DAMPER,        // mN ms/mm, of a damper

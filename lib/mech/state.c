@@ -69,6 +69,8 @@ vsc_status vsc_state_create(const vsc_model *model, vsc_state **state, vsc_error
   }
   made->scratch.prony = made->prony;
   memcpy(made->x, model->rest, 4 * model->node_count * sizeof *made->x);
+  if (model->velocity != NULL)
+    memcpy(made->v, model->velocity, 4 * model->node_count * sizeof *made->v);
   *state = made;
   return VSC_OK;
 }

@@ -91,7 +91,8 @@ typedef struct vsc_state {
   vsc_scratch scratch;
 } vsc_state;
 
-// The state of `model` at rest at time 0, its acceleration still to be computed (vsc_start).
+// The state of `model` in its shape at rest at time 0, with its initial velocity, its acceleration still to be
+// computed (vsc_start).
 // Nothing is allocated after this. Must be created after the number of threads is set. The caller
 // owns *state.
 vsc_status vsc_state_create(const vsc_model *model, vsc_state **state, vsc_error *error);

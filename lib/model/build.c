@@ -299,6 +299,7 @@ static void hash_model(vsc_model *model)
   hash = vsc_hash(hash, model->axes, model->axis_count * sizeof *model->axes);
   hash = vsc_hash(hash, model->pairs, model->pair_count * sizeof *model->pairs);
   hash = vsc_hash(hash, model->gravity, sizeof model->gravity);
+  if (model->velocity) hash = vsc_hash(hash, model->velocity, 4 * model->node_count * sizeof(double));
   hash = vsc_hash(hash, &model->step, sizeof model->step);
   hash = vsc_hash(hash, &model->safety, sizeof model->safety);
   hash = vsc_hash(hash, &model->masses, sizeof model->masses);
@@ -431,6 +432,7 @@ static vsc_status build(const vsc_mesh *mesh, const vsc_axes *axes,
   if (status == VSC_OK)
     status = vsc_terms_kept_volumes(mesh, definition, material_of, model, error);
   if (status == VSC_OK) status = vsc_terms_loads(definition, model, error);
+  if (status == VSC_OK) status = vsc_terms_velocity(mesh, definition, model, error);
   if (status == VSC_OK) hash_model(model);
   return status;
 }

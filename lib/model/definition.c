@@ -52,6 +52,7 @@ vsc_support_def vsc_default_support(void)
 vsc_definition vsc_default_definition(void)
 {
   return (vsc_definition){.volume = VSC_VOLUME_NODAL, .safety = 0.8, .most_added_mass = 0.05, .cycle_tolerance = 1e-3,
+                          .velocity = {.unit = 1},
                           .solve = {.rho = 0.5, .accuracy = 1e-4, .tolerance = 1e-6}};
 }
 

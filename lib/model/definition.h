@@ -301,6 +301,12 @@ typedef struct vsc_pressure_def {
   vsc_curve_def curve;
 } vsc_pressure_def;
 
+// How fast each node is at the start.
+typedef struct vsc_velocity_def {
+  char array[VSC_NAME];  // node array of three numbers; empty: at rest (default)
+  double unit;           // one unit of it, mm/ms; default 1
+} vsc_velocity_def;
+
 // How a state is moved on in time.
 typedef enum vsc_solve_kind {
   VSC_SOLVE_EXPLICIT,     // Stoermer-Verlet (default)
@@ -367,6 +373,7 @@ typedef struct vsc_definition {
   vsc_kept_volume kept_volume;
   vsc_mass_kind masses;
   double gravity[3];            // mm/ms^2; default 0
+  vsc_velocity_def velocity;
   double end_time;              // ms
   double cycle;                 // ms; a run may stop when a cycle of this length repeats the last; 0: not
   double cycle_tolerance;       // to which it has to repeat it (run/cycle.h); default 1e-3

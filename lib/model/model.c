@@ -27,6 +27,7 @@ static void free_nodes(vsc_model *model)
   vsc_free(model->mass);
   vsc_free(model->inverse_mass);
   vsc_free(model->weight);
+  vsc_free(model->velocity);
   vsc_free(model->group_volume);
   vsc_free(model->group_modulus);
 }

@@ -306,6 +306,8 @@ typedef struct vsc_model {
   vsc_obstacle *obstacles;
   vsc_kept_volumes kept;
   double gravity[3];     // mm/ms^2
+  double *velocity;      // node_count x 4: at the start, 0 in held directions, mm/ms; NULL: at rest
+  size_t stopped_count;  // nodes whose initial velocity a support has taken away, wholly or in part
   size_t surface_count;  // the named surfaces, with the mesh's node numbers
   vsc_surface *surfaces;
   size_t set_count;

@@ -48,4 +48,9 @@ vsc_status vsc_terms_obstacles(const vsc_mesh *mesh, const vsc_definition *defin
 // Pressures, weights, springs and dashpots on surfaces.
 vsc_status vsc_terms_loads(const vsc_definition *definition, vsc_model *model, vsc_error *error);
 
+// The initial velocity (initial_velocity.c), after supports, which take it from the directions that they hold.
+// VSC_INPUT for a node array that is missing, has not three numbers a node, or a number that is not finite.
+vsc_status vsc_terms_velocity(const vsc_mesh *mesh, const vsc_definition *definition,
+                              vsc_model *model, vsc_error *error);
+
 #endif

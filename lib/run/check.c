@@ -233,6 +233,20 @@ static bool tissue_is_damped(const vsc_model *model)
   return damped;
 }
 
+// How fast the body is at the start.
+static void say_velocity(const vsc_model *model, FILE *out)
+{
+  double momentum[3] = {0}, energy = 0, most = 0;
+  for (size_t n = 0; n < model->node_count; n++) {
+    const double *v = model->velocity + 4 * n;
+    for (int i = 0; i < 3; i++) momentum[i] += model->mass[n] * v[i];
+    energy += 0.5 * model->mass[n] * vsc_dot(v, v);
+    most = fmax(most, vsc_norm(v));
+  }
+  fprintf(out, "velocity   at the start: up to %.4g m/s, momentum (%.4g, %.4g, %.4g) mg m/s, energy %.4g mJ\n",
+          most, momentum[0], momentum[1], momentum[2], 1e-3 * energy);
+}
+
 static void say_terms(const vsc_model *model, FILE *out)
 {
   const char *volumes = "";
@@ -253,6 +267,7 @@ static void say_terms(const vsc_model *model, FILE *out)
   fputc('\n', out);
   if (model->terms.smoothed)
     fprintf(out, "smoothed   laws of linear tets on %zu edges\n", model->smoothing.edge_count);
+  if (model->velocity != NULL) say_velocity(model, out);
   for (size_t r = 0; r < model->robin_count; r++) {
     const vsc_robin *bed = &model->robins[r];
     fprintf(out,

@@ -204,8 +204,11 @@ static void warn_setting(writer *w, const vsc_problem *problem)
   bool pushed = vsc_supports_move(model);
   for (size_t o = 0; o < model->obstacle_count; o++)
     pushed |= vsc_norm(model->obstacles[o].motion) > 0;
-  if (model->terms.active == VSC_ACTIVE_NONE && !driven && !pushed)
-    warn(w, "nothing will move: no active material, no pressure, no gravity");
+  if (model->stopped_count > 0)
+    warn(w, "initial_velocity: supports hold %zu of the nodes that it moves, which start at rest in these directions",
+         model->stopped_count);
+  if (model->terms.active == VSC_ACTIVE_NONE && !driven && !pushed && model->velocity == NULL)
+    warn(w, "nothing will move: no active material, no pressure, no gravity, no initial velocity");
   if (!model->terms.damping && model->solve.kind != VSC_SOLVE_EQUILIBRIUM)
     warn(w, "materials: no damping, so vibrations never die away");
 }
