@@ -16,7 +16,14 @@
 #include "tools/shapes_cloud.h"
 #include "tools/verbs.h"
 
-// Writes a mesh with all its arrays, as integers.
+static bool is_whole(const vsc_array *array)
+{
+  for (size_t k = 0; k < array->tuples * (size_t)array->components; k++)
+    if (array->values[k] != floor(array->values[k])) return false;
+  return true;
+}
+
+// Writes a mesh with all its arrays, whole numbers as integers.
 static vsc_status write_mesh(const char *file, const vsc_mesh *mesh, vsc_error *error)
 {
   const vsc_arrays *lists[] = {&mesh->node_data, &mesh->element_data, &mesh->triangle_data};
@@ -31,7 +38,7 @@ static vsc_status write_mesh(const char *file, const vsc_mesh *mesh, vsc_error *
                                         .components = lists[l]->items[a].components,
                                         .values = lists[l]->items[a].values,
                                         .place = places[l],
-                                        .integer = true};
+                                        .integer = is_whole(&lists[l]->items[a])};
   const vsc_status status = vsc_vtk_write_mesh(file, mesh, count, arrays, false, error);
   vsc_free(arrays);
   return status;
@@ -156,6 +163,20 @@ static vsc_status generate_cook(const vsc_generate_wish *wish, const char *file,
   return finish_solid(file, status, mesh, error);
 }
 
+static vsc_status generate_column(const vsc_generate_wish *wish, const char *file, vsc_error *error)
+{
+  vsc_column_shape column = vsc_column_default();
+  vsc_mesh *mesh = NULL;
+  if (wish->cell_numbers > 0) memcpy(column.block.cells, wish->block.cells, sizeof column.block.cells);
+  if (wish->size_numbers > 0) memcpy(column.block.size, wish->block.size, sizeof column.block.size);
+  column.block.tets_per_cell = wish->block.tets_per_cell;
+  column.element = wish->lv.element;
+  column.bend = wish->bend;
+  column.twist = wish->twist;
+  const vsc_status status = vsc_column_mesh(&column, &mesh, error);
+  return finish_solid(file, status, mesh, error);
+}
+
 static vsc_status generate_cylinder(const vsc_generate_wish *wish, const char *file, vsc_error *error)
 {
   vsc_mesh *mesh = NULL;
@@ -192,6 +213,7 @@ static vsc_status generate(const vsc_generate_wish *wish, vsc_error *error)
                 {"sheet", "sheet.vtu", generate_sheet},
                 {"tube", "tube.vtu", generate_tube},
                 {"cook", "cook.vtu", generate_cook},
+                {"column", "column.vtu", generate_column},
                 {"cylinder", "cylinder.vtu", generate_cylinder},
                 {"octant", "octant.vtu", generate_octant},
                 {"liver", "liver.vtu", generate_liver},
@@ -205,7 +227,7 @@ static vsc_status generate(const vsc_generate_wish *wish, vsc_error *error)
     if (strcmp(wish->shape, shapes[k].name) == 0)
       return shapes[k].make(wish, wish->file != NULL ? wish->file : shapes[k].file, error);
   return vsc_fail(error, VSC_INPUT, "unknown shape '%s', must be lv, map, block, sheet, tube, cook, "
-                  "cylinder, octant, liver or vessels",
+                  "column, cylinder, octant, liver or vessels",
                   wish->shape);
 }
 
@@ -236,8 +258,8 @@ int vsc_verb_generate(int argc, char **argv)
   }
   if (optind + 1 != argc) {
     fprintf(stderr,
-            "viscera generate: say one shape: lv, map, block, sheet, tube, cook, cylinder, octant, liver "
-            "or vessels, see `viscera generate --help`\n");
+            "viscera generate: say one shape: lv, map, block, sheet, tube, cook, column, cylinder, "
+            "octant, liver or vessels, see `viscera generate --help`\n");
     return VSC_INPUT;
   }
   wish.shape = argv[optind];

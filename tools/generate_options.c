@@ -9,8 +9,8 @@
 void vsc_generate_help(void)
 {
   puts(
-      "Usage: viscera generate lv|map|block|sheet|tube|cook|cylinder|octant|liver|vessels\n"
-      "                        [OPTION]...\n"
+      "Usage: viscera generate lv|map|block|sheet|tube|cook|column|cylinder|octant|liver|\n"
+      "                        vessels [OPTION]...\n"
       "Makes a mesh or an angle map by formulas. Lengths are mm, angles degrees.\n\n"
       "lv: a left ventricle between two half ellipsoids about z, apex at -z, cut by the plane\n"
       "z = base; node arrays endo, epi, base, rim (0 or 1), cell array region. With map: the\n"
@@ -52,6 +52,12 @@ void vsc_generate_help(void)
       "cook: Cook's membrane, a panel from 44 to 16 mm high, 48 mm long; node arrays left, right, bottom,\n"
       "top, back, front.\n"
       "      --cells=NX,NY,NZ --thickness=T   bricks, mm [8,8,1, 1]\n"
+      "      --element=tet|hex|wedge|mixed --tets=5|6\n\n"
+      "column: a box about z, from z = 0, that is set in motion; node arrays x0 x1 y0 y1 z0 z1, and velocity\n"
+      "in m/s, for initial_velocity.\n"
+      "      --bend=V --twist=W               of its top in m/s, rad/s: along x growing with z, about z\n"
+      "                                       with sin(pi z / 2 H) [0, 0]\n"
+      "      --cells=NX,NY,NZ --size=X,Y,Z    bricks, mm [4,4,24, 1000,1000,6000]\n"
       "      --element=tet|hex|wedge|mixed --tets=5|6\n\n"
       "cylinder, octant: a quarter of a thick cylinder about z, an eighth of a thick sphere; node arrays\n"
       "inner, outer, x0, y0, z0 (the cuts), of the cylinder z1.\n"
@@ -105,6 +111,8 @@ enum {
   THICKNESS,
   INNER,
   OUTER,
+  BEND,
+  TWIST,
 };
 
 const struct option vsc_generate_options[] = {
@@ -138,6 +146,8 @@ const struct option vsc_generate_options[] = {
     {"thickness", required_argument, NULL, THICKNESS},
     {"inner", required_argument, NULL, INNER},
     {"outer", required_argument, NULL, OUTER},
+    {"bend", required_argument, NULL, BEND},
+    {"twist", required_argument, NULL, TWIST},
     {"output", required_argument, NULL, 'o'},
     {"help", no_argument, NULL, 'h'},
     {NULL, 0, NULL, 0},
@@ -226,6 +236,10 @@ bool vsc_generate_option(vsc_generate_wish *wish, int option, const char *text)
       return wish->lv.surfaces = true;
     case THICKNESS:
       return read_numbers(text, &wish->thickness, 1) && wish->thickness > 0;
+    case BEND:
+      return read_numbers(text, &wish->bend, 1);
+    case TWIST:
+      return read_numbers(text, &wish->twist, 1);
     case INNER:
       return read_numbers(text, &wish->shell.inner, 1);
     case OUTER:

@@ -6,6 +6,7 @@
 #include <getopt.h>
 #include <stdbool.h>
 
+#include "tools/shapes_column.h"
 #include "tools/shapes_liver.h"
 #include "tools/shapes_sheet.h"
 #include "tools/shapes_shells.h"
@@ -19,6 +20,7 @@ typedef struct vsc_generate_wish {
   int cell_numbers, size_numbers;  // how many were given; 0: none
   vsc_tube_shape tube;
   vsc_shell_shape shell;
+  double bend, twist;  // of a column, m/s and rad/s
   double thickness;  // of Cook's membrane, mm; 0: the default
   bool unstructured;
   size_t points;                 // 0: the default

@@ -104,8 +104,8 @@ vsc_status vsc_measure_cylinder_move(const vsc_outcome *outcome, const vsc_bench
 
 // ---- signals
 
-static vsc_status find_column(const vsc_outcome *outcome, const char *name, const double **values,
-                              vsc_error *error)
+vsc_status vsc_find_column(const vsc_outcome *outcome, const char *name, const double **values,
+                           vsc_error *error)
 {
   *values = vsc_signals_find(outcome->signals, name);
   if (*values != NULL && outcome->signals->rows > 0) return VSC_OK;
@@ -116,7 +116,7 @@ vsc_status vsc_measure_signal(const vsc_outcome *outcome, const vsc_bench_quanti
                               vsc_measured *measured, vsc_error *error)
 {
   const double *values;
-  const vsc_status status = find_column(outcome, quantity->column, &values, error);
+  const vsc_status status = vsc_find_column(outcome, quantity->column, &values, error);
   if (status == VSC_OK) measured->value = values[outcome->signals->rows - 1];
   return status;
 }
@@ -125,7 +125,7 @@ vsc_status vsc_measure_least(const vsc_outcome *outcome, const vsc_bench_quantit
                              vsc_measured *measured, vsc_error *error)
 {
   const double *values;
-  const vsc_status status = find_column(outcome, quantity->column, &values, error);
+  const vsc_status status = vsc_find_column(outcome, quantity->column, &values, error);
   if (status != VSC_OK) return status;
   measured->value = INFINITY;
   for (size_t r = 0; r < outcome->signals->rows; r++)
@@ -137,8 +137,8 @@ vsc_status vsc_measure_frequency(const vsc_outcome *outcome, const vsc_bench_qua
                                  vsc_measured *measured, vsc_error *error)
 {
   const double *time, *values;
-  vsc_status status = find_column(outcome, "time", &time, error);
-  if (status == VSC_OK) status = find_column(outcome, quantity->column, &values, error);
+  vsc_status status = vsc_find_column(outcome, "time", &time, error);
+  if (status == VSC_OK) status = vsc_find_column(outcome, quantity->column, &values, error);
   if (status == VSC_OK)
     measured->value = vsc_curve_frequency(outcome->signals->rows, time, values);
   return status;
@@ -157,7 +157,7 @@ vsc_status vsc_measure_stroke(const vsc_outcome *outcome, const vsc_bench_quanti
 {
   const double *values;
   const char *const at = strstr(outcome->folder, "-implicit-");
-  vsc_status status = find_column(outcome, quantity->column, &values, error);
+  vsc_status status = vsc_find_column(outcome, quantity->column, &values, error);
   if (status != VSC_OK) return status;
   measured->value = fall(outcome->signals->rows, values);
   if (strcmp(outcome->of->variant->name, "implicit") != 0 || at == NULL) return VSC_OK;
@@ -204,8 +204,8 @@ static vsc_status sample_history(const vsc_outcome *outcome, const vsc_bench_qua
   char column[VSC_NAME];
   const double *time, *history, *at = vsc_signals_find(table, "time_s");
   snprintf(column, sizeof column, "%s%c", quantity->column, "xyz"[axis]);
-  vsc_status status = find_column(outcome, "time", &time, error);
-  if (status == VSC_OK) status = find_column(outcome, column, &history, error);
+  vsc_status status = vsc_find_column(outcome, "time", &time, error);
+  if (status == VSC_OK) status = vsc_find_column(outcome, column, &history, error);
   if (status != VSC_OK) return status;
   if (at == NULL || reference_column(table, quantity->file_column, axis, "mean") == NULL)
     return vsc_fail(error, VSC_INPUT, "%s: no columns time_s and %s_u%c_mean_mm", quantity->file,

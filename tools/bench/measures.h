@@ -41,8 +41,24 @@ vsc_bench_measure vsc_measure_strains;
 // time points, percent, at which component quantity->axis is between least and most.
 vsc_bench_measure vsc_measure_history, vsc_measure_band;
 
+// Histories of a point again, against reference curves in metres: columns t_s and u<x|y|z>_NAME_m, NAME being
+// quantity->file_column: relative distance over time and components.
+vsc_bench_measure vsc_measure_course;
+
+// When a point is back where it was, s: the first time that the distance of its displacement quantity->column
+// with x, y, z behind from 0 is least and below a fifth of its largest, after it was above a half (a parabola through
+// the squares of three rows).
+vsc_bench_measure vsc_measure_return;
+
+// The largest |balance_error| in percent of the largest energy_kinetic.
+vsc_bench_measure vsc_measure_balance;
+
 // Where the point of the tissue that rests at `at` is in the last frame, mm. VSC_INPUT as above.
 vsc_status vsc_moved_point(const vsc_outcome *outcome, const double at[3], double now[3],
+                           vsc_error *error);
+
+// A column of signals.csv, in its own unit; VSC_INPUT when there is none, or it has no rows.
+vsc_status vsc_find_column(const vsc_outcome *outcome, const char *name, const double **values,
                            vsc_error *error);
 
 // Reads quantity->file, which the caller owns; *table is NULL, and measured->skipped true, where there is

@@ -16,8 +16,10 @@ extern const vsc_bench_problem vsc_bench_land_p3;  // a ventricle is inflated an
 extern const vsc_bench_problem vsc_bench_sagging_block;  // a soft cube held at one face
 extern const vsc_bench_problem vsc_bench_lame_sphere, vsc_bench_lame_cylinder;      // at small strain
 extern const vsc_bench_problem vsc_bench_rubber_sphere, vsc_bench_rubber_cylinder;  // at large strain
+extern const vsc_bench_problem vsc_bench_cook;       // Cook's membrane at large strain, likewise
 extern const vsc_bench_problem vsc_bench_beam;       // Timoshenko's, up to a Poisson ratio of 0.4999
 extern const vsc_bench_problem vsc_bench_vibration;  // a soft bar swings
+extern const vsc_bench_problem vsc_bench_bending_column, vsc_bench_twisting_column;  // set in motion
 extern const vsc_bench_problem vsc_bench_beat;       // time steps of the shipped beat
 
 // Arostica et al. 2025, Comput. Methods Appl. Mech. Engrg. 435:117485.

@@ -136,3 +136,33 @@ const vsc_bench_problem vsc_bench_rubber_cylinder = {
     .variants = VSC_COUNTED(cylinder_pressures), .sizes = VSC_COUNTED(cylinders),
     .quantities = VSC_COUNTED(cylinder_radii),
 };
+
+// ---- Cook's membrane in plane strain, rubber of E = 240.565 kPa under a dead traction of 6.25 kPa
+
+#define RUBBER(shear, bulk) \
+  {"materials[0].neo_hookean.shear=" shear " kPa", "materials[0].volume_modulus=" bulk " kPa"}
+
+static const vsc_bench_variant rubbers[] = {
+    {"0.3", 0.3, RUBBER("92.525", "200.4708333")},
+    {"0.4", 0.4, RUBBER("85.91607143", "400.9416667")},
+    {"0.49", 0.49, RUBBER("80.72651007", "4009.416667")},
+    {"0.499", 0.499, RUBBER("80.24182789", "40094.16667")},
+    {"0.4999", 0.4999, RUBBER("80.19367958", "400941.6667")},
+};
+
+static const vsc_bench_size panels[] = {
+    {VSC_BENCH_ALL, "--cells=8,8,1"},
+    {VSC_BENCH_ALL, "--cells=16,16,1"},
+    {VSC_BENCH_ALL & ~VSC_BENCH_QUADRATIC, "--cells=32,32,1"},
+};
+
+static const vsc_bench_quantity rises[] = {
+    {.name = "end rises", .unit = "mm", .measure = vsc_measure_move, .at = {48, 52, 0.5}, .axis = 1,
+     .formula = vsc_cook_rise, .percent = 1, .held = VSC_BENCH_QUADRATIC},
+};
+
+const vsc_bench_problem vsc_bench_cook = {
+    .name = "cook", .title = "Cook's membrane of rubber: Poisson's ratio from 0.3 to 0.4999",
+    .scene = "cook.yaml", .shape = "cook",
+    .variants = VSC_COUNTED(rubbers), .sizes = VSC_COUNTED(panels), .quantities = VSC_COUNTED(rises),
+};
