@@ -46,8 +46,8 @@ vsc_bench_measure vsc_measure_history, vsc_measure_band;
 vsc_bench_measure vsc_measure_course;
 
 // When a point is back where it was, s: the first time that the distance of its displacement quantity->column
-// with x, y, z behind from 0 is least and below a fifth of its largest, after it was above a half (a parabola through
-// the squares of three rows).
+// with x, y, z behind from 0 is least and below a tenth of its largest, after it was above a half (a parabola through
+// the squares of three rows); not before quantity->at[0] s: a whole turn ends there, too.
 vsc_bench_measure vsc_measure_return;
 
 // The largest |balance_error| in percent of the largest energy_kinetic.

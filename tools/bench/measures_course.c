@@ -88,7 +88,7 @@ vsc_status vsc_measure_return(const vsc_outcome *outcome, const vsc_bench_quanti
     const double before = square_at(&course, r - 1), now = square_at(&course, r),
                  after = square_at(&course, r + 1);
     away |= now > most / 4;
-    if (!away || now > most / 25 || now > before || now > after) continue;
+    if (!away || course.time[r] < quantity->at[0] || now > most / 100 || now > before || now > after) continue;
     const double bend = before - 2 * now + after;
     measured->value = course.time[r] + (bend > 0 ? 0.5 * (before - after) / bend : 0) *
                                            (course.time[r + 1] - course.time[r]);

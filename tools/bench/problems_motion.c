@@ -33,39 +33,44 @@ const vsc_bench_problem vsc_bench_vibration = {
 
 // ---- a column of rubber, 1 m x 1 m x 6 m, held at its foot, is set in motion (Bonet, Gil et al. 2015)
 
-// At coarse meshes lumped masses are too far out, so that a twist is too strong, by a part of 1/2 of the square of a
-// brick's part of the width.
-static const vsc_bench_size columns[] = {
+static const vsc_bench_size bent[] = {
     {VSC_BENCH_QUADRATIC, "--cells=2,2,12"},
     {VSC_BENCH_ALL, "--cells=4,4,24"},
     {VSC_BENCH_ALL & ~VSC_BENCH_QUADRATIC, "--cells=8,8,48"},
 };
 
-#define COLUMN(curves, back, most)                                                                   \
+// Lumped masses lie too far out: the energy of a twist is 12 % too large with four linear bricks across the width, 3 %
+// with eight or with four quadratic ones, and courses part with the phase.
+static const vsc_bench_size twisted[] = {
+    {VSC_BENCH_ALL, "--cells=4,4,24"},
+    {VSC_BENCH_ALL, "--cells=8,8,48"},
+};
+
+#define COLUMN(curves, away, back, part, most)                                                                   \
   {.name = "distance of a corner", .unit = "1", .measure = vsc_measure_course, .column = "point_corner_u", \
    .file = curves, .file_column = "corner", .reference = 0, .within = most, .held = VSC_BENCH_QUADRATIC}, \
   {.name = "back after", .unit = "s", .measure = vsc_measure_return, .column = "point_corner_u",     \
-   .reference = back, .percent = 1, .held = VSC_BENCH_QUADRATIC},                                     \
+   .at = {away}, .reference = back, .percent = part, .held = VSC_BENCH_QUADRATIC},                                     \
   {.name = "energy off by", .unit = "%", .measure = vsc_measure_balance, .reference = 0, .within = 0.1}, \
   {.name = "smallest J", .unit = "1", .measure = vsc_measure_least, .column = "J_min", .reference = NAN}
 
 static const vsc_bench_variant explicit_only[] = {{"explicit", 0, {"solve=explicit"}}};
 
-static const vsc_bench_quantity bends[] = {COLUMN("column_bending.csv", 0.909, 0.02)};
+static const vsc_bench_quantity bends[] = {COLUMN("column_bending.csv", 0, 0.909, 1, 0.02)};
 
 const vsc_bench_problem vsc_bench_bending_column = {
     .name = "bending_column", .title = "A column bends and swings back, 10 m/s at its top",
     .scene = "column.yaml", .shape = "column --bend=10",
-    .variants = VSC_COUNTED(explicit_only), .sizes = VSC_COUNTED(columns), .quantities = VSC_COUNTED(bends),
+    .variants = VSC_COUNTED(explicit_only), .sizes = VSC_COUNTED(bent), .quantities = VSC_COUNTED(bends),
 };
 
-static const vsc_bench_quantity twists[] = {COLUMN("column_twisting.csv", 0.179, 0.2)};
+static const vsc_bench_quantity twists[] = {COLUMN("column_twisting.csv", 0.12, 0.179, 2, 0)};
 
 const vsc_bench_problem vsc_bench_twisting_column = {
     .name = "twisting_column", .title = "A column twists by most of a turn and back, 105 rad/s at its top",
     .scene = "column.yaml", .shape = "column --twist=105",
     .settings = {"time.end=0.4 s"},
-    .variants = VSC_COUNTED(explicit_only), .sizes = VSC_COUNTED(columns), .quantities = VSC_COUNTED(twists),
+    .variants = VSC_COUNTED(explicit_only), .sizes = VSC_COUNTED(twisted), .quantities = VSC_COUNTED(twists),
 };
 
 // ---- Arostica et al. 2025
