@@ -128,6 +128,8 @@ static void broken_scenes_end_in_one_clear_line(void **state)
       {"boundary, stiffness", "bondary, stiffness", "66:", "robin[1].surface:", "boundary"},
       {"1 cm]", "1 s]", "51:", "supports[0].motion[2]:", "a length"},
       {"set: base", "set: bass", "51:", "supports[0].set:", "the nearest is base"},
+      {"robin:\n", "initial_velocity: {unit: 1 m/s}\nrobin:\n", "64:", "initial_velocity.node_array: missing", "node_array: velocity"},
+      {"robin:\n", "initial_velocity: {node_array: v, unit: 1 m}\nrobin:\n", "64:", "initial_velocity.unit:", "a velocity"},
       {"{surface: endo,", "{surface: edno,", "54:", "pressures[0].surface:", "the nearest is endo"},
       {"inside, surface: endo", "inside, surface: ento", "10:", "node_sets[2].surface:",
        "the nearest is endo"},

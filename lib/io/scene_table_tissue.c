@@ -315,8 +315,20 @@ static void start_pressure(void *target)
 GROUP(, vsc_pressure_group, -1, .size = sizeof(vsc_pressure_def), .start = start_pressure);
 
 static const vsc_row vsc_velocity_group_rows[] = {
-    {"node_array", NAME(vsc_velocity_def, array), .needed = VSC_ALWAYS, .text = "velocity",
+    {"node_array", NAME(vsc_velocity_def, array), .text = "velocity",
      .meaning = "node array of the mesh with three numbers a node"},
     {"unit", UNIT(vsc_velocity_def, unit, VSC_VELOCITY), .text = "1 m/s", .meaning = "of its numbers"},
 };
-GROUP(, vsc_velocity_group, -1, .size = sizeof(vsc_velocity_def));
+
+// A scene as understood has an empty name where the body starts at rest.
+static vsc_status finish_velocity(vsc_reading *reading, const vsc_slot *slots, void *target)
+{
+  (void)target;
+  if (vsc_slot_value(&vsc_velocity_group, slots, "node_array") != NULL ||
+      vsc_slot_value(&vsc_velocity_group, slots, "unit") == NULL)
+    return VSC_OK;
+  vsc_enter(reading, "node_array");
+  return vsc_reading_fail(reading, "missing; write such as \"node_array: velocity\"");
+}
+
+GROUP(, vsc_velocity_group, -1, .size = sizeof(vsc_velocity_def), .finish = finish_velocity);
