@@ -57,3 +57,16 @@ void vsc_results_close(vsc_results *results)
   vsc_pvd_free(results->series);
   results->series = NULL;
 }
+
+double vsc_results_number(const char *folder, const char *key)
+{
+  char file[VSC_RESULT_PATH + 32], line[512], quoted[64];
+  double value = NAN;
+  snprintf(file, sizeof file, "%.4095s/summary.json", folder);
+  snprintf(quoted, sizeof quoted, "\"%s\": %%lf", key);
+  FILE *summary = fopen(file, "r");
+  while (summary != NULL && fgets(line, sizeof line, summary) != NULL)
+    if (sscanf(line + strspn(line, " "), quoted, &value) == 1) break;
+  if (summary != NULL) fclose(summary);
+  return value;
+}

@@ -24,4 +24,7 @@ size_t vsc_results_nearest(const vsc_results *results, double time);
 
 void vsc_results_close(vsc_results *results);
 
+// The number behind "key" in FOLDER/summary.json; NAN when there is none.
+double vsc_results_number(const char *folder, const char *key);
+
 #endif

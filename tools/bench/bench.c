@@ -7,6 +7,7 @@
 
 #include "tools/bench/accuracy.h"
 #include "tools/bench/paper.h"
+#include "tools/bench/stability.h"
 #include "tools/bench/throughput.h"
 #include "tools/bench/work_precision.h"
 #include "tools/verbs.h"
@@ -33,6 +34,7 @@ static const section sections[] = {
     {"growth", vsc_bench_growth, true, "time and memory from a thousand tets to a million"},
     {"skipping", vsc_bench_skipping, true, "what features cost, used and idle"},
     {"error", vsc_bench_error, true, "error against run time, of a beating ventricle"},
+    {"stability", vsc_bench_stability, true, "what survives, what is told when it doesn't, and the stable step"},
     {"accuracy", vsc_bench_accuracy, false, "problems with known answers: errors and costs (half an hour)"},
     {"paper", bench_paper, false, "Table 1 of Bourguignon & Cani 2000 as CSV"},
 };

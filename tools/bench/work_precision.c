@@ -157,20 +157,6 @@ static vsc_status compare(const char *folder, const char *reference, double *err
   return status;
 }
 
-// Simulated seconds and elements of a result, from its series and its summary.
-static double number_of(const char *folder, const char *key)
-{
-  char file[PATH_MAX + 32], line[512], quoted[64];
-  double value = NAN;
-  snprintf(file, sizeof file, "%s/summary.json", folder);
-  snprintf(quoted, sizeof quoted, "\"%s\": %%lf", key);
-  FILE *summary = fopen(file, "r");
-  while (summary != NULL && fgets(line, sizeof line, summary) != NULL)
-    if (sscanf(line + strspn(line, " "), quoted, &value) == 1) break;
-  if (summary != NULL) fclose(summary);
-  return value;
-}
-
 // ---- tables
 
 static void say(const wish *wish, const char *table, const measured *m)
@@ -210,8 +196,8 @@ static vsc_status take(const wish *wish, const char *table, const way *way, int 
   snprintf(m->name, sizeof m->name, "%s", way->name);
   vsc_status status = run(wish, way, size, folder, &cost, error);
   if (status != VSC_OK) return status;
-  m->elements = number_of(folder, "elements");
-  m->cost = cost.cpu_seconds / number_of(folder, "time_s");
+  m->elements = vsc_results_number(folder, "elements");
+  m->cost = cost.cpu_seconds / vsc_results_number(folder, "time_s");
   if (reference != NULL) status = compare(folder, reference, &m->error, error);
   if (status == VSC_OK) say(wish, table, m);
   return status;

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/bench/stability_report.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+
+static void write_text(FILE *file, const char *text)
+{
+  for (; *text != '\0'; text++) fputc(*text == '"' ? '\'' : *text, file);
+}
+
+vsc_status vsc_stability_write(const vsc_stability_row *rows, size_t count, const char *folder, vsc_error *error)
+{
+  char name[PATH_MAX];
+  snprintf(name, sizeof name, "%.4000s/stability.csv", folder);
+  FILE *file = fopen(name, "w");
+  if (file == NULL) return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", name, strerror(errno));
+  fputs("stress,law,element,method,outcome,exit_code,balance_error,J_min,J_max,inverted_at_end,repeated,steps,"
+        "cpu_seconds,claimed_step_ms,true_step_ms,message\n", file);
+  for (size_t k = 0; k < count; k++) {
+    const vsc_stress_case *at = &rows[k].of;
+    const vsc_verdict *v = &rows[k].verdict;
+    fprintf(file, "%s,%s,%s,%s,%s,%d,%.3g,%.4g,%.4g,%g,%g,%g,%.3g,%.8g,%.8g,\"", vsc_stresses[at->stress].name,
+            vsc_stress_laws[at->law], vsc_stress_kinds[at->kind], vsc_stress_methods[at->method],
+            vsc_verdict_names[v->kind], v->code, v->balance, v->J_low, v->J_high, v->inverted, v->repeated, v->steps,
+            v->cpu_seconds, v->claimed, v->limit);
+    write_text(file, v->why);
+    fputs("\"\n", file);
+  }
+  if (fclose(file) == 0) return VSC_OK;
+  return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", name, strerror(errno));
+}
+
+// ---- counts
+
+static void say_line(const char *name, const size_t of[VSC_VERDICTS], const char *what)
+{
+  printf("  %-12s", name);
+  for (int v = 0; v < VSC_VERDICTS; v++) printf(" %9zu", of[v]);
+  printf("  %s\n", what);
+}
+
+// By stress (`which` 0), method (1), law (2), kind of element (3), or all (4).
+static void say_counts(const vsc_stability_row *rows, size_t count, int which, size_t groups, const char *const *names)
+{
+  for (size_t g = 0; g < groups; g++) {
+    size_t of[VSC_VERDICTS] = {0};
+    for (size_t k = 0; k < count; k++) {
+      const vsc_stress_case *at = &rows[k].of;
+      const size_t place[] = {at->stress, at->method, at->law, at->kind, 0};
+      of[rows[k].verdict.kind] += place[which] == g;
+    }
+    say_line(which == 0 ? vsc_stresses[g].name : names[g], of, which == 0 ? vsc_stresses[g].what : "");
+  }
+}
+
+// Messages alike but for their numbers are told once.
+static bool is_alike(const char *a, const char *b)
+{
+  static const char digits[] = "0123456789.+-e";
+  while (*a != '\0' && *b != '\0') {
+    a += strspn(a, digits);
+    b += strspn(b, digits);
+    if (*a != *b) return false;
+    if (*a != '\0') a++, b++;
+  }
+  return *a == *b;
+}
+
+static void say_messages(const vsc_stability_row *rows, size_t count, vsc_verdict_kind kind)
+{
+  for (size_t k = 0; k < count; k++) {
+    if (rows[k].verdict.kind != kind) continue;
+    bool told = false;
+    size_t alike = 0;
+    for (size_t m = 0; m < count; m++) {
+      if (rows[m].verdict.kind != kind || !is_alike(rows[m].verdict.why, rows[k].verdict.why)) continue;
+      told = told || m < k;
+      alike++;
+    }
+    if (!told) printf("  %4zu x %-44s %s\n", alike, rows[k].of.name, rows[k].verdict.why);
+  }
+}
+
+// ---- steps
+
+static int compare_numbers(const void *a, const void *b)
+{
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static bool has_steps(const vsc_verdict *v)
+{
+  return v->claimed > 0 && isfinite(v->limit);
+}
+
+static void say_steps(const vsc_stability_row *rows, size_t count)
+{
+  double *part;
+  size_t found = 0, above = 0;
+  if (!VSC_NEW(part, count)) return;
+  for (size_t k = 0; k < count; k++)
+    if (has_steps(&rows[k].verdict)) {
+      part[found++] = rows[k].verdict.claimed / rows[k].verdict.limit;
+      above += rows[k].verdict.claimed > rows[k].verdict.limit;
+    }
+  qsort(part, found, sizeof *part, compare_numbers);
+  if (found > 0)
+    printf("\nestimated over true stable step (before safety, by which it is multiplied), %zu cases:\n"
+           "  least %.3f, a tenth below %.3f, half below %.3f, nine tenths below %.3f, most %.3f; above 1: %zu\n",
+           found, part[0], part[found / 10], part[found / 2], part[9 * found / 10], part[found - 1], above);
+  vsc_free(part);
+}
+
+void vsc_stability_say(const vsc_stability_row *rows, size_t count)
+{
+  static const char *const all[] = {"all"};
+  printf("  %-12s", "");
+  for (int v = 0; v < VSC_VERDICTS; v++) printf(" %9s", vsc_verdict_names[v]);
+  printf("\n");
+  say_counts(rows, count, 0, vsc_stress_count, NULL);
+  say_counts(rows, count, 1, VSC_STRESS_METHODS, vsc_stress_methods);
+  say_counts(rows, count, 2, vsc_stress_law_count, vsc_stress_laws);
+  say_counts(rows, count, 3, vsc_stress_kind_count, vsc_stress_kinds);
+  say_counts(rows, count, 4, 1, all);
+  for (vsc_verdict_kind kind = VSC_REFUSED; kind < VSC_VERDICTS; kind++) {
+    printf("\n%s:\n", vsc_verdict_names[kind]);
+    say_messages(rows, count, kind);
+  }
+  say_steps(rows, count);
+}
+
+bool vsc_stability_holds(const vsc_stability_row *rows, size_t count)
+{
+  for (size_t k = 0; k < count; k++)
+    if (rows[k].verdict.kind == VSC_WRONG ||
+        (has_steps(&rows[k].verdict) && rows[k].verdict.claimed > rows[k].verdict.limit))
+      return false;
+  return true;
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What came of a case of `viscera bench stability`.
+#ifndef VSC_TOOLS_BENCH_VERDICT_H
+#define VSC_TOOLS_BENCH_VERDICT_H
+
+#include "tools/bench/stress.h"
+
+typedef enum vsc_verdict_kind {
+  VSC_SURVIVES,  // to the end, with finite numbers and an energy that balances
+  VSC_REFUSED,   // before the first step, with a message that names what is wrong
+  VSC_STOPS,     // numerically, with a message that names element or node, place, time and remedy
+  VSC_UNENDED,   // still running after --limit seconds
+  VSC_WRONG,     // anything else
+  VSC_VERDICTS,
+} vsc_verdict_kind;
+
+extern const char *const vsc_verdict_names[VSC_VERDICTS];
+
+typedef struct vsc_verdict {
+  vsc_verdict_kind kind;
+  int code;             // the program's exit code
+  double balance;       // largest error of the energy balance over the largest energy or work; NAN where
+                        // there is none (equilibria, law paper)
+  double J_low, J_high; // extremes of the frames' volume ratios
+  double inverted;      // elements inside out at the end
+  double repeated;      // stretches gone again with shorter steps; of implicit runs steps rejected and failed
+  double steps;
+  double cpu_seconds;
+  double claimed, limit;  // explicit: the step that is claimed and the true limit at the start, ms; else 0
+  char why[VSC_ERROR_TEXT];  // the program's message, or what is wrong
+} vsc_verdict;
+
+// Judges what a run of the case has left in FOLDER/run, having ended with `status` and the message in `error`.
+// The balance may be off by 5 % of the largest energy or work so far, as a run's own watch has it; implicit
+// steps may lose energy, as their scheme does, but not make any.
+void vsc_judge(const vsc_stress_case *at, const char *folder, vsc_status status, const vsc_error *error,
+               vsc_verdict *verdict);
+
+#endif
