@@ -2,6 +2,7 @@
 #include "mech/state.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/hash.h"
@@ -115,6 +116,26 @@ size_t vsc_state_find_bad(const vsc_model *model, const vsc_state *state)
     for (int i = 0; i < 3; i++)
       if (!isfinite(state->x[4 * n + i]) || !isfinite(state->v[4 * n + i])) return n;
   return model->node_count;
+}
+
+const char *vsc_name_node(const vsc_model *model, size_t node, char *text, size_t size)
+{
+  const double *rest = model->rest + 4 * node;
+  snprintf(text, size, "node %u, at rest at (%.4g, %.4g, %.4g) mm", model->mesh_node[node], rest[0], rest[1], rest[2]);
+  return text;
+}
+
+size_t vsc_largest_node(const vsc_model *model, const double *numbers)
+{
+  size_t largest = 0;
+  double most = -1;
+  for (size_t n = 0; n < model->node_count; n++) {
+    const double *at = numbers + 4 * n, square = at[0] * at[0] + at[1] * at[1] + at[2] * at[2];
+    if (isnan(square)) return n;
+    if (square > most) largest = n;
+    most = fmax(most, square);
+  }
+  return largest;
 }
 
 uint64_t vsc_state_hash(const vsc_model *model, const vsc_state *state)

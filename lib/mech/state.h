@@ -17,7 +17,7 @@ typedef struct vsc_limit {
   double interval;    // how long the estimate is trusted, ms
   double refreshes;   // estimates so far
   double first;       // the step that was allowed at the start, ms
-  double caution;     // part of the allowed step that is taken: 1, but where a way is gone again
+  double caution;     // part of the allowed step that is taken: 1, but where energy did not balance with that
   double *mode;       // node_count x 4: the eigenvector so far; owned
 } vsc_limit;
 
@@ -104,6 +104,15 @@ bool vsc_state_has_former(const vsc_model *model, bool velocities);
 
 // The first node whose position or velocity is not finite, or node_count.
 size_t vsc_state_find_bad(const vsc_model *model, const vsc_state *state);
+
+enum { VSC_NODE_TEXT = 96 };  // room for a node's name and place
+
+// "node 12, at rest at (1, 0.5, 2) mm", the node in the mesh's number: for messages. Writes at most `size` bytes
+// with the terminating zero and returns `text`.
+const char *vsc_name_node(const vsc_model *model, size_t node, char *text, size_t size);
+
+// The node at which node_count x 4 numbers are largest (not a number: largest of all).
+size_t vsc_largest_node(const vsc_model *model, const double *numbers);
 
 // Hash of time, x, v and a: equal for equal bits.
 uint64_t vsc_state_hash(const vsc_model *model, const vsc_state *state);

@@ -24,7 +24,8 @@ typedef struct vsc_job {
   double start_wall, start_cpu, start_steps, start_time;
   double converged_rows;  // of convergence.csv so far
   double most_inverted;  // largest number of elements with J <= 0 at any row
-  double repeated;       // stretches that were gone again with shorter steps
+  double repeated;       // how often a stretch was gone again with shorter steps
+  double calm;           // stretches since that went well with the shorter ones
   double most_continued;  // largest number of frames beyond a law's largest exponent at any row
 } vsc_job;
 

@@ -7,7 +7,7 @@
 #include "run/job.h"
 
 // Scalars of a checkpoint, in the order of list_scalars.
-enum { CLOCK = 0, LIMIT = 2, WORKS = 8, WATCH = 13, SCALARS = 23, BLOCKS = 21 };
+enum { CLOCK = 0, LIMIT = 2, WORKS = 8, WATCH = 13, SCALARS = 25, BLOCKS = 21 };
 
 static void list_scalars(vsc_job *job, double *places[SCALARS])
 {
@@ -23,7 +23,7 @@ static void list_scalars(vsc_job *job, double *places[SCALARS])
       &ledger->start,     &ledger->calls,                                               // WORKS
       &watch->rows,       &watch->balance, &watch->energy_scale, &job->most_inverted,  // WATCH
       &job->most_continued, &job->repeated, &job->cycle.stroke, &job->cycle.speed,
-      &job->cycle.ended,  &job->cycle.difference};
+      &job->cycle.ended,  &job->cycle.difference, &limit->caution, &job->calm};
   memcpy(places, list, sizeof list);
 }
 
@@ -88,7 +88,7 @@ static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[
       {"time_and_steps", "ms, 1", LIMIT - CLOCK, 1, scalars + CLOCK},
       {"step_limit", "1/ms^2, ms, ms, ms, 1, ms", WORKS - LIMIT, 1, scalars + LIMIT},
       {"works", "uJ, uJ, uJ, uJ, 1", WATCH - WORKS, 1, scalars + WORKS},
-      {"watch", "1, uJ, uJ, 1, 1, 1, mm, mm/ms, 1, 1", SCALARS - WATCH, 1, scalars + WATCH},
+      {"watch", "1, uJ, uJ, 1, 1, 1, mm, mm/ms, 1, 1, 1, 1", SCALARS - WATCH, 1, scalars + WATCH},
       {"last_cycle", "mm, mm/ms", job->cycle.kept != NULL ? 2 * nodes : 0, 4, job->cycle.kept},
       {"signal_extrema", "as signals.csv", 2 * VSC_SIGNALS, 1, job->watch->low},
   };

@@ -14,6 +14,9 @@
 #define LONGEST_LOOK 1.0  // ms between two looks of the energy ledger
 #define CLOSER 16         // looks in place of one that did not balance
 #define TURNS 4           // how often a way is gone again
+#define CALM 16           // good looks after which shorter steps become longer again
+#define LEAST_CAUTION 0x1p-6
+#define LOOKS_PER_PERIOD 16
 #define SAME_TIME 1e-12   // part of a time by which multiples of intervals differ by rounding
 
 static void name_of_scene(const char *file, char name[VSC_NAME])
@@ -190,6 +193,16 @@ static vsc_status go_closer(vsc_job *job, double start, double time, int looks, 
   return VSC_OK;
 }
 
+// Steps that had to be shorter stay so until CALM looks have gone well with them: a motion that makes energy in
+// long steps goes on doing so.
+static void grow_calm(vsc_job *job)
+{
+  double *caution = &job->state->limit.caution;
+  if (*caution == 1 || ++job->calm < CALM) return;
+  *caution = fmin(2 * *caution, 1);
+  job->calm = 0;
+}
+
 // To the next look. When energy does not balance there, because loads or vibrations have changed much
 // since the last look, the same way is gone again with closer looks, then with steps of a half, a quarter,
 // an eighth of their length and looks closer still, and so it is when numbers are no longer finite; what
@@ -197,18 +210,19 @@ static vsc_status go_closer(vsc_job *job, double start, double time, int looks, 
 static vsc_status go_to_look(vsc_job *job, double time, vsc_error *error)
 {
   const vsc_model *model = job->problem->model;
-  const double start = job->state->time, repeated = job->repeated;
+  const double start = job->state->time, repeated = job->repeated, usual = job->state->limit.caution;
   vsc_status status = go_to(job, time, error);
   if (model->solve.kind != VSC_SOLVE_EXPLICIT) return status;
   const int turns = model->step > 0 ? 1 : TURNS;
   for (int turn = 0; status == VSC_NUMERICAL && turn < turns; turn++) {
     vsc_job_go_back(job);
     vsc_watch_resume(job->problem, job->state, job->watch);
-    job->state->limit.caution = ldexp(1, -turn);
+    job->state->limit.caution = fmax(ldexp(usual, -turn), LEAST_CAUTION);
     job->repeated = repeated + turn;
+    job->calm = 0;
     status = go_closer(job, start, time, CLOSER << turn, error);
   }
-  job->state->limit.caution = 1;
+  if (status == VSC_OK) grow_calm(job);
   return status;
 }
 
@@ -228,6 +242,23 @@ static bool repeats(const vsc_job *job)
   return job->cycle.kept != NULL && job->cycle.difference <= job->problem->model->cycle_tolerance;
 }
 
+// A period must not slip through between two looks.
+static void resolve(const vsc_curve *curve, double *look)
+{
+  if (curve->period > 0) *look = fmin(*look, curve->period / LOOKS_PER_PERIOD);
+}
+
+// The longest way between two looks of the ledger, ms.
+static double longest_look(const vsc_model *model)
+{
+  double look = LONGEST_LOOK;
+  for (size_t m = 0; m < model->material_count; m++)
+    if (model->materials[m].active != VSC_ACTIVE_NONE) resolve(&model->materials[m].curve, &look);
+  for (size_t p = 0; p < model->pressure_count; p++) resolve(&model->pressures[p].curve, &look);
+  for (size_t s = 0; s < model->moved_count; s++) resolve(&model->moved[s].curve, &look);
+  return look;
+}
+
 // Goes on to the first look at or after `stop`: looks, and with them the steps, are where they
 // would be without a stop.
 static vsc_status advance(vsc_job *job, double stop, vsc_error *error)
@@ -236,10 +267,10 @@ static vsc_status advance(vsc_job *job, double stop, vsc_error *error)
   const double end = job->problem->model->end_time;
   vsc_state *state = job->state;
   vsc_status status = VSC_OK;
-  // the ledger wants a look at least every LONGEST_LOOK, however rare the rows are
+  // the ledger wants its looks, however rare the rows are
   const bool motion = job->problem->model->solve.kind == VSC_SOLVE_EXPLICIT;
   const double look =
-      output->signal_interval / (motion ? ceil(output->signal_interval / LONGEST_LOOK) : 1);
+      output->signal_interval / (motion ? ceil(output->signal_interval / longest_look(job->problem->model)) : 1);
   while (state->time < stop * (1 - SAME_TIME) && status == VSC_OK && !repeats(job)) {
     const double before = state->time;
     double next = next_event(before, look, end);
@@ -275,6 +306,8 @@ static void fill_result(const vsc_job *job, vsc_run_result *result)
   result->cycles = job->cycle.ended;
   result->cycle_difference = job->cycle.difference;
   result->repeats = repeats(job);
+  result->repeated = job->repeated;
+  result->most_inverted = job->most_inverted;
   result->frames = job->pvd ? vsc_pvd_count(job->pvd) : 0;
   vsc_job_path(job, ".pvd", result->series);
 }

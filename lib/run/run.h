@@ -27,6 +27,8 @@ typedef struct vsc_run_result {
   double wall_seconds, cpu_seconds;
   double updates_per_second;  // element updates per CPU second, everything included
   size_t frames;              // in the series now
+  double repeated;            // how often a stretch was gone again with shorter steps, of all calls
+  double most_inverted;       // most elements that were inside out at the same time, of all calls
   double cycles;              // that were watched so far (time.cycle)
   double cycle_difference;    // of the last from the one before (run/cycle.h)
   bool repeats;               // the run stopped because it was below time.cycle_tolerance

@@ -85,6 +85,13 @@ static bool guess(const vsc_model *model, vsc_state *state, double dt, double ti
   return !vsc_supports_move(model) || vsc_smallest_ratio(model, x, &element) > 0;
 }
 
+static uint32_t smallest_at(const vsc_model *model, const double *x)
+{
+  uint32_t element = 0;
+  vsc_smallest_ratio(model, x, &element);
+  return element;
+}
+
 vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double until,
                               vsc_error *error)
 {
@@ -104,9 +111,8 @@ vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double u
         guess(model, state, (next - done) * way, s.time, x)
             ? settle(newton, &s, x, &iterations, error)
             : vsc_fail(error, VSC_NUMERICAL,
-                       "at %.6g ms no equilibrium was found: a support moves so far that elements turn "
-                       "inside out",
-                       s.time);
+                       "at %.6g ms no equilibrium was found: a support moves so far that elements turn inside "
+                       "out, element %u first; take a smaller motion", s.time, smallest_at(model, x));
     if (status == VSC_OK) {
       memcpy(state->former_x, state->x, 4 * model->node_count * sizeof *x);
       memcpy(state->x, x, 4 * model->node_count * sizeof *x);

@@ -176,12 +176,13 @@ static vsc_status refresh_limit(const vsc_model *model, vsc_state *state, vsc_er
   if (change < 0.02) limit->interval = fmin(2 * limit->interval, LONGEST_TRUST);
   if (change > 0.10) limit->interval = fmax(0.5 * limit->interval, SHORTEST_TRUST);
   limit->time = state->time;
+  char node[VSC_NODE_TEXT];
   if (!isfinite(limit->eigenvalue) || limit->step < COLLAPSE * limit->first)
     return vsc_fail(error, VSC_NUMERICAL,
-                    "at %.6g ms the stable step has collapsed from %.3g to %.3g ms: elements are "
-                    "torn or crushed; take "
-                    "more damping or a smaller load",
-                    state->time, limit->first, limit->step);
+                    "at %.6g ms the stable step has collapsed from %.3g to %.3g ms, stiffest is what pulls at "
+                    "%s: elements are torn or crushed; take more damping or a smaller load",
+                    state->time, limit->first, limit->step,
+                    vsc_name_node(model, vsc_largest_node(model, limit->mode), node, sizeof node));
   if (model->step > limit->step / model->safety && !model->force_step)
     return vsc_fail(error, VSC_NUMERICAL,
                     "at %.6g ms the tissue has become too stiff for time.step %.6g ms: the stable "
@@ -195,14 +196,11 @@ static vsc_status check_finite(const vsc_model *model, const vsc_state *state, v
 {
   const size_t bad = vsc_state_find_bad(model, state);
   if (bad == model->node_count) return VSC_OK;
-  const double *rest = model->rest + 4 * bad;
-  return vsc_fail(
-      error, VSC_NUMERICAL,
-      "at %.6g ms (step %.0f) the position of node %u, at rest at (%.4g, %.4g, %.4g) mm, is no "
-      "longer a "
-      "finite number: the simulation has blown up; take a smaller time.safety, more damping, or a "
-      "smaller load",
-      state->time, state->steps, model->mesh_node[bad], rest[0], rest[1], rest[2]);
+  char node[VSC_NODE_TEXT];
+  return vsc_fail(error, VSC_NUMERICAL,
+                  "at %.6g ms (step %.0f) the position of %s, is no longer a finite number: the simulation has "
+                  "blown up; take a smaller time.safety, more damping, or a smaller load",
+                  state->time, state->steps, vsc_name_node(model, bad, node, sizeof node));
 }
 
 // Steps on to `stop` or not quite as far, by what divides the way to `until` into equal steps not longer than

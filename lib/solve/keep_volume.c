@@ -2,6 +2,7 @@
 #include "solve/keep_volume.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <suitesparse/cholmod.h>
@@ -239,6 +240,22 @@ static void push(const vsc_model *model, const vsc_state *state, const keeper *k
 
 // ---- the step
 
+// "node 12", "element 3": what the volume furthest off is kept of; empty for regions and the body.
+static const char *name_worst(const vsc_model *model, const keeper *k, char text[VSC_NODE_TEXT])
+{
+  const vsc_kept_volumes *kept = &model->kept;
+  size_t worst = 0;
+  for (size_t v = 1; v < kept->count; v++)
+    if (!(fabs(k->defect[v]) / kept->rest[v] <= fabs(k->defect[worst]) / kept->rest[worst])) worst = v;
+  text[0] = '\0';
+  if (kept->kind != VSC_KEEP_NODE && kept->kind != VSC_KEEP_ELEMENT) return text;
+  char place[VSC_NODE_TEXT];
+  vsc_name_node(model, kept->triangles[3 * kept->start[worst]], place, sizeof place);
+  snprintf(text, VSC_NODE_TEXT, ", that of %s %u near %s", kept->kind == VSC_KEEP_NODE ? "node" : "element",
+           kept->source[worst], strchr(place, '('));
+  return text;
+}
+
 // defect_k = V_k - v_k(x); returns the largest part of a volume.
 static double find_defects(const vsc_model *model, const vsc_state *state, keeper *k)
 {
@@ -279,12 +296,13 @@ vsc_status vsc_keep_volume(const vsc_model *model, vsc_state *state, double dt, 
     if (most > 0.5 * before && most <= VSC_KEPT_TOLERANCE) break;  // rounding
   }
   for (size_t v = 0; v < model->kept.count; v++) state->kept_pressure[v] += k->lambda[v] / dt / dt;
+  char worst[VSC_NODE_TEXT];
   if (status == VSC_OK && !(most <= 100 * VSC_KEPT_TOLERANCE))
     status = vsc_fail(error, VSC_NUMERICAL,
-                      "at %.6g ms kept volumes could not be kept (%.2g of one is left over): an "
+                      "at %.6g ms kept volumes could not be kept (%.2g of one is left over%s): an "
                       "element is crushed or blocked all round; use keep_volume: region or total, or "
                       "a smaller load",
-                      state->time, most);
+                      state->time, most, name_worst(model, k, worst));
   return status;
 }
 

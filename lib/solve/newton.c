@@ -165,9 +165,19 @@ static bool stands_still(const vsc_newton *newton, double norm)
          norm <= fmax(STILL_RESIDUAL * newton->scale, ROUNDED_SUMS * newton->floor);
 }
 
-static vsc_status fail(vsc_error *error, double time, const char *why)
+static vsc_status fail(const vsc_newton *newton, vsc_error *error, double time, const char *why)
 {
-  return vsc_fail(error, VSC_NUMERICAL, "at %.6g ms no equilibrium was found: %s", time, why);
+  const vsc_model *model = newton->model;
+  double *out = newton->trial, size = 0;
+  // reactions of supports are no residual
+  for (size_t i = 0; i < 4 * model->node_count; i++) out[i] = model->inverse_mass[i] != 0 ? newton->r[i] : 0;
+  const size_t worst = vsc_largest_node(model, out);
+  for (size_t i = 4 * worst; i < 4 * worst + 3; i++) size += out[i] * out[i];
+  char node[VSC_NODE_TEXT];
+  return vsc_fail(error, VSC_NUMERICAL,
+                  "at %.6g ms no equilibrium was found: %s; furthest out of balance, by %.2g mN, is %s; take a smaller "
+                  "load or a better mesh there, or solve: explicit", time, why, sqrt(size),
+                  vsc_name_node(model, worst, node, sizeof node));
 }
 
 vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, double time, double load,
@@ -214,7 +224,7 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
     if (status != VSC_OK) {
       newton->failures++;
       return status == VSC_NUMERICAL
-                 ? fail(error, time, "the tangent has lost its stiffness (buckling, or too "
+                 ? fail(newton, error, time, "the tangent has lost its stiffness (buckling, or too "
                                             "large an increment)")
                  : status;
     }
@@ -223,7 +233,7 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
       newton->failures++;
       char why[80];
       snprintf(why, sizeof why, "element %u would turn inside out", element);
-      return fail(error, time, why);
+      return fail(newton, error, time, why);
     }
   }
   newton->failures++;
@@ -234,5 +244,5 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
   if (vsc_free_motions(model, ways, sizeof ways) > 0)
     snprintf(why + length, sizeof why - (size_t)length,
              "; nothing keeps the body from moving as a whole, it is free to %s: hold it by supports or robin", ways);
-  return fail(error, time, why);
+  return fail(newton, error, time, why);
 }

@@ -114,8 +114,10 @@ vsc_status vsc_relax_to(const vsc_model *model, vsc_state *state, double until, 
     vsc_moving_reckon(model, state, state->force, 1, loads.way);
     return VSC_OK;
   }
+  char node[VSC_NODE_TEXT];
   return vsc_fail(error, VSC_NUMERICAL,
-                  "at %.6g ms no equilibrium was found: relaxation has not come to rest in %d steps; "
-                  "use solver.method: newton, or a larger solver.tolerance",
-                  until, MOST_STEPS);
+                  "at %.6g ms no equilibrium was found: relaxation has not come to rest in %d steps, least of all "
+                  "%s; use solver.method: newton, or a larger solver.tolerance",
+                  until, MOST_STEPS,
+                  vsc_name_node(model, vsc_largest_node(model, state->v), node, sizeof node));
 }

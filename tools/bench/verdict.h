@@ -31,8 +31,9 @@ typedef struct vsc_verdict {
 } vsc_verdict;
 
 // Judges what a run of the case has left in FOLDER/run, having ended with `status` and the message in `error`.
-// The balance may be off by 5 % of the largest energy or work so far, as a run's own watch has it; implicit
-// steps may lose energy, as their scheme does, but not make any.
+// The balance of explicit runs may be off by a tenth of the largest energy or work, as their own watch has it.
+// Implicit steps may lose energy, as their scheme does, and make a quarter of the largest at most: theirs is
+// not watched, and steps as long as accuracy allows do not see each vibration.
 void vsc_judge(const vsc_stress_case *at, const char *folder, vsc_status status, const vsc_error *error,
                vsc_verdict *verdict);
 

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "io/vtk.h"
+#include "tools/plot/outcomes.h"
 #include "tools/plot/page.h"
 #include "tools/plot/polar.h"
 #include "tools/plot/several.h"
@@ -16,6 +17,7 @@
 typedef struct request {
   const char *folder;
   const char *polar, *title;  // instead: curves of `viscera calibrate`
+  const char *outcomes;       // or what `viscera bench stability` left
   char output[VSC_RESULT_PATH];
   vsc_results results;
   char signals[VSC_RESULT_PATH];  // the CSV
@@ -39,6 +41,7 @@ static void print_help(void)
       "      --view, --curves   first of all: several results in one picture, see --view --help\n"
       "      --polar CSV    instead of results: the curves that `viscera calibrate --picture` left\n"
       "      --title TEXT   their title\n"
+      "      --outcomes CSV instead of results: what `viscera bench stability` left\n"
       "  -h, --help         this text\n\n"
       "Examples:\n"
       "  viscera plot beat\n"
@@ -175,6 +178,9 @@ static vsc_status read_option(int option, request *wish, vsc_error *error)
     case 'p':
       wish->polar = optarg;
       return VSC_OK;
+    case 'O':
+      wish->outcomes = optarg;
+      return VSC_OK;
     case 'T':
       wish->title = optarg;
       return VSC_OK;
@@ -190,7 +196,7 @@ int main(int argc, char **argv)
       {"axis", required_argument, NULL, 'a'},   {"from", required_argument, NULL, 'f'},
       {"whole", no_argument, NULL, 'w'},        {"help", no_argument, NULL, 'h'},
       {"version", no_argument, NULL, 'v'},      {"polar", required_argument, NULL, 'p'},
-      {"title", required_argument, NULL, 'T'},  {0}};
+      {"title", required_argument, NULL, 'T'},  {"outcomes", required_argument, NULL, 'O'}, {0}};
   if (argc > 1 && (strcmp(argv[1], "--view") == 0 || strcmp(argv[1], "--curves") == 0))
     return vsc_plot_several(argc - 1, argv + 1);
   request wish = {.title = "", .axis = {0, 0, 1}, .time = NAN};
@@ -206,13 +212,14 @@ int main(int argc, char **argv)
     }
     if (read_option(option, &wish, &error) != VSC_OK) return fail(&error);
   }
-  if (wish.polar != NULL) {
+  if (wish.polar != NULL || wish.outcomes != NULL) {
     if (wish.output[0] == '\0' || argc != optind) {
-      vsc_fail(&error, VSC_INPUT, "--polar: give the PNG by -o, and no folder");
+      vsc_fail(&error, VSC_INPUT, "--%s: give the PNG by -o, and no folder", wish.polar != NULL ? "polar" : "outcomes");
       return fail(&error);
     }
-    return vsc_polar_draw(wish.polar, wish.title, wish.output, &error) == VSC_OK ? VSC_OK
-                                                                                 : fail(&error);
+    const vsc_status status = wish.polar != NULL ? vsc_polar_draw(wish.polar, wish.title, wish.output, &error)
+                                                 : vsc_outcomes_draw(wish.outcomes, wish.output, &error);
+    return status == VSC_OK ? VSC_OK : fail(&error);
   }
   if (argc - optind != 1) {
     vsc_fail(&error, VSC_INPUT, "give one folder of results; `viscera plot --help` tells more");
