@@ -22,14 +22,14 @@ vsc_status vsc_stability_write(const vsc_stability_row *rows, size_t count, cons
   FILE *file = fopen(name, "w");
   if (file == NULL) return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", name, strerror(errno));
   fputs("stress,law,element,method,outcome,exit_code,balance_error,J_min,J_max,inverted_at_end,repeated,steps,"
-        "cpu_seconds,claimed_step_ms,true_step_ms,message\n", file);
+        "cpu_seconds,estimated_step_ms,true_step_ms,growth_below,growth_above,message\n", file);
   for (size_t k = 0; k < count; k++) {
     const vsc_stress_case *at = &rows[k].of;
     const vsc_verdict *v = &rows[k].verdict;
-    fprintf(file, "%s,%s,%s,%s,%s,%d,%.3g,%.4g,%.4g,%g,%g,%g,%.3g,%.8g,%.8g,\"", vsc_stresses[at->stress].name,
+    fprintf(file, "%s,%s,%s,%s,%s,%d,%.3g,%.4g,%.4g,%g,%g,%g,%.3g,%.8g,%.8g,%.3g,%.3g,\"", vsc_stresses[at->stress].name,
             vsc_stress_laws[at->law], vsc_stress_kinds[at->kind], vsc_stress_methods[at->method],
             vsc_verdict_names[v->kind], v->code, v->balance, v->J_low, v->J_high, v->inverted, v->repeated, v->steps,
-            v->cpu_seconds, v->claimed, v->limit);
+            v->cpu_seconds, v->claimed, v->limit, v->below, v->above);
     write_text(file, v->why);
     fputs("\"\n", file);
   }
@@ -101,21 +101,32 @@ static bool has_steps(const vsc_verdict *v)
   return v->claimed > 0 && isfinite(v->limit);
 }
 
+bool vsc_step_holds(const vsc_verdict *v)
+{
+  return !has_steps(v) || (v->claimed <= v->limit && v->below < 100 && v->above > 1e4);
+}
+
 static void say_steps(const vsc_stability_row *rows, size_t count)
 {
   double *part;
-  size_t found = 0, above = 0;
+  size_t found = 0, above = 0, grown = 0, kept = 0;
   if (!VSC_NEW(part, count)) return;
   for (size_t k = 0; k < count; k++)
     if (has_steps(&rows[k].verdict)) {
       part[found++] = rows[k].verdict.claimed / rows[k].verdict.limit;
       above += rows[k].verdict.claimed > rows[k].verdict.limit;
+      grown += !(rows[k].verdict.below < 100);
+      kept += !(rows[k].verdict.above > 1e4);
+      if (!vsc_step_holds(&rows[k].verdict))
+        printf("  %s: estimated %g, true %g ms, times %.3g below, times %.3g above\n", rows[k].of.name,
+               rows[k].verdict.claimed, rows[k].verdict.limit, rows[k].verdict.below, rows[k].verdict.above);
     }
   qsort(part, found, sizeof *part, compare_numbers);
   if (found > 0)
     printf("\nestimated over true stable step (before safety, by which it is multiplied), %zu cases:\n"
-           "  least %.3f, a tenth below %.3f, half below %.3f, nine tenths below %.3f, most %.3f; above 1: %zu\n",
-           found, part[0], part[found / 10], part[found / 2], part[9 * found / 10], part[found - 1], above);
+           "  least %.3f, a tenth below %.3f, half below %.3f, nine tenths below %.3f, most %.3f; above 1: %zu\n"
+           "  10^5 steps of 0.98 of the estimate grow in %zu cases, 2000 steps of 1.1 of the true limit stay small in %zu\n",
+           found, part[0], part[found / 10], part[found / 2], part[9 * found / 10], part[found - 1], above, grown, kept);
   vsc_free(part);
 }
 
@@ -140,8 +151,6 @@ void vsc_stability_say(const vsc_stability_row *rows, size_t count)
 bool vsc_stability_holds(const vsc_stability_row *rows, size_t count)
 {
   for (size_t k = 0; k < count; k++)
-    if (rows[k].verdict.kind == VSC_WRONG ||
-        (has_steps(&rows[k].verdict) && rows[k].verdict.claimed > rows[k].verdict.limit))
-      return false;
+    if (rows[k].verdict.kind == VSC_WRONG || !vsc_step_holds(&rows[k].verdict)) return false;
   return true;
 }

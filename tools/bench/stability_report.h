@@ -17,7 +17,12 @@ vsc_status vsc_stability_write(const vsc_stability_row *rows, size_t count, cons
 // were refused or stopped once, and the distribution of claimed over true steps, on stdout.
 void vsc_stability_say(const vsc_stability_row *rows, size_t count);
 
-// No case is wrong and no claimed step (safety aside) is above the true limit.
+// Whether nothing speaks against the step that is claimed: it is not above the true limit, small velocities stay
+// below a hundred times what they were just below it, and grow 10^4 times above the limit. True where no step was
+// measured.
+bool vsc_step_holds(const vsc_verdict *verdict);
+
+// No case is wrong, and each claimed step holds.
 bool vsc_stability_holds(const vsc_stability_row *rows, size_t count);
 
 #endif

@@ -154,6 +154,13 @@ bool vsc_stress_next(vsc_stress_case *at, bool whole)
   return false;
 }
 
+bool vsc_stress_rests(const vsc_stress_case *at)
+{
+  const vsc_stress *s = &vsc_stresses[at->stress];
+  const bool loaded = s->tension > 0 || s->curve != NULL || s->pressure > 0 || s->gravity > 0 || s->motion > 0;
+  return !loaded || s->regions > 0;
+}
+
 // ---- meshes
 
 // Where the plane of nodes that lay at x (mm) goes.
@@ -249,7 +256,7 @@ static void write_active(FILE *file, const vsc_stress_case *at, double end)
     fprintf(file, "      curve: {kind: half_sine, duration: %g ms}\n", end);
 }
 
-static void write_material(FILE *file, const vsc_stress_case *at, int half, double end)
+static void write_material(FILE *file, const vsc_stress_case *at, int half, double end, bool rests)
 {
   const vsc_stress *stress = &vsc_stresses[at->stress];
   const double stiff = half == 0 ? 1 : or_default(stress->regions, 1);
@@ -263,12 +270,13 @@ static void write_material(FILE *file, const vsc_stress_case *at, int half, doub
             or_default(stress->volume, 20) * SHEAR * stiff, SHEAR * stiff);
     if (stress->viscosity > 0) fprintf(file, "    viscosity: %g Pa s\n", stress->viscosity);
   }
-  write_active(file, at, end);
+  if (!rests) write_active(file, at, end);
 }
 
-static void write_loads(FILE *file, const vsc_stress *stress, double end)
+static void write_loads(FILE *file, const vsc_stress *stress, double end, bool rests)
 {
   fputs("supports:\n  - {set: near, held: [x, y, z]}\n", file);
+  if (rests) return;
   if (stress->motion > 0)
     fprintf(file, "  - {set: far, held: [x, y, z], motion: [%g mm, 0 mm, 0 mm], curve: {kind: ramp, duration: %g ms}}\n",
             -stress->motion, end);
@@ -278,14 +286,12 @@ static void write_loads(FILE *file, const vsc_stress *stress, double end)
   if (stress->gravity > 0) fprintf(file, "gravity: [0 m/s2, 0 m/s2, %g m/s2]\n", -stress->gravity);
 }
 
-vsc_status vsc_stress_write(const vsc_stress_case *at, const char *folder, vsc_error *error)
+static vsc_status write_scene(const vsc_stress_case *at, const char *folder, bool rests, vsc_error *error)
 {
   const vsc_stress *stress = &vsc_stresses[at->stress];
   const double end = or_default(stress->end, 10);
   char name[PATH_MAX];
-  const vsc_status status = write_mesh(at, folder, error);
-  if (status != VSC_OK) return status;
-  snprintf(name, sizeof name, "%s/scene.yaml", folder);
+  snprintf(name, sizeof name, "%s/%s.yaml", folder, rests ? "rest" : "scene");
   FILE *file = fopen(name, "w");
   if (file == NULL) return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", name, strerror(errno));
   fprintf(file, "# %s\nmesh: {file: mesh.vtu, unit: mm, region_array: region%s}\n", at->name,
@@ -293,13 +299,20 @@ vsc_status vsc_stress_write(const vsc_stress_case *at, const char *folder, vsc_e
   fputs("surfaces: [{name: end, node_array: x1, value: 1}]\n"
         "node_sets: [{name: near, node_array: x0, value: 1}, {name: far, node_array: x1, value: 1}]\n"
         "fibers: {source: constant, constant: {fiber: [3, 1, 0.5]}}\nmaterials:\n", file);
-  for (int half = 0; half < 2; half++) write_material(file, at, half, end);
+  for (int half = 0; half < 2; half++) write_material(file, at, half, end, rests);
   fputs(kinds[at->kind].settings, file);
-  write_loads(file, stress, end);
+  write_loads(file, stress, end, rests);
   // the ledger sees loads at its looks only
-  const double look = stress->curve != NULL ? 0.02 : 0.1;
+  const double look = stress->curve != NULL || stress->pressure > 0 ? 0.02 : 0.1;
   fprintf(file, "solve: %s\ntime: {end: %g ms}\noutput: {frames: %g ms, signals: %g ms}\n",
           vsc_stress_methods[at->method], end, end, at->method == VSC_STRESS_EQUILIBRIUM ? end / 10 : look);
   if (fclose(file) == 0) return VSC_OK;
   return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", name, strerror(errno));
+}
+
+vsc_status vsc_stress_write(const vsc_stress_case *at, const char *folder, vsc_error *error)
+{
+  vsc_status status = write_mesh(at, folder, error);
+  if (status == VSC_OK) status = write_scene(at, folder, false, error);
+  return status == VSC_OK ? write_scene(at, folder, true, error) : status;
 }

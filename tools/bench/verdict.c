@@ -10,7 +10,8 @@
 #include "tools/plot/signals.h"
 #include "tools/results.h"
 
-#define MOST_BALANCE 0.1
+// A run's watch says 0.1; rows see less of the largest energy than its looks.
+#define MOST_BALANCE 0.12
 #define MOST_MADE 0.25
 // The least energy that counts, mJ: far below that of 1 % strain in the block.
 #define NO_ENERGY 1e-6

@@ -27,6 +27,8 @@ typedef struct vsc_verdict {
   double steps;
   double cpu_seconds;
   double claimed, limit;  // explicit: the step that is claimed and the true limit at the start, ms; else 0
+  double below, above;  // what becomes of small velocities in 10^5 steps of 0.98 of what is claimed, in 2000 of 1.1 of the
+                        // true limit, times what they were; 0: not tried
   char why[VSC_ERROR_TEXT];  // the program's message, or what is wrong
 } vsc_verdict;
 

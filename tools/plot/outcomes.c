@@ -9,7 +9,7 @@
 #include "base/text.h"
 #include "tools/plot/ink.h"
 
-enum { MOST_NAMES = 32, LEFT = 150, TOP = 150, CELL = 46, ROW = 30, GAP = 26, BOTTOM = 30 };
+enum { MOST_NAMES = 32, LEFT = 150, TOP = 170, CELL = 46, ROW = 30, GAP = 26, BOTTOM = 30 };
 
 // Names in the order in which they are met.
 typedef struct names {
