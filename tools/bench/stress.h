@@ -59,8 +59,8 @@ bool vsc_stress_next(vsc_stress_case *at, bool whole);
 // Whether the body itself is the stress, not what is done to it: at rest others are like `nothing`.
 bool vsc_stress_rests(const vsc_stress_case *at);
 
-// Writes FOLDER/mesh.vtu, FOLDER/scene.yaml of the case and FOLDER/rest.yaml, the body with nothing done to it. VSC_SYSTEM when that fails, VSC_INPUT when the
-// mesh cannot be made.
+// Writes FOLDER/mesh.vtu, FOLDER/scene.yaml of the case and FOLDER/rest.yaml, the body with nothing done to it.
+// VSC_SYSTEM when that fails, VSC_INPUT when the mesh cannot be made.
 vsc_status vsc_stress_write(const vsc_stress_case *at, const char *folder, vsc_error *error);
 
 #endif
