@@ -25,7 +25,7 @@ install(FILES ${CMAKE_BINARY_DIR}/viscera.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}
 
 # The installed programs find the library beside them.
 file(RELATIVE_PATH to_library ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
-foreach(program viscera_program viscera_plot)
+foreach(program viscera_program viscera_verbs viscera_plot)
   if(TARGET ${program})
     set_target_properties(${program} PROPERTIES INSTALL_RPATH "$ORIGIN/${to_library}")
     install(TARGETS ${program})

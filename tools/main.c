@@ -3,9 +3,7 @@
 #include <errno.h>
 #include <stdbool.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/status.h"
 #include "base/text.h"
@@ -15,25 +13,22 @@
 typedef struct verb {
   const char *name;
   int (*run)(int argc, char **argv);
-  bool threads;      // computes with several threads
   const char *help;  // what it does, in one line
 } verb;
 
 static int run_plot(int argc, char **argv);
 
 static const verb verbs[] = {
-    {"run", vsc_verb_run, true, "simulate a scene; leaves frames, signals, a summary"},
-    {"check", vsc_verb_check, true,
-     "say what a scene would do, what it would cost, what looks odd"},
-    {"info", vsc_verb_info, false, "say what meshes, images, series, checkpoints or scenes hold"},
-    {"compare", vsc_verb_compare, false, "error norms between results, orders of convergence, curves"},
-    {"measure", vsc_verb_measure, false, "how a slice of the tissue has moved, turned, changed size"},
-    {"schema", vsc_verb_schema, false, "print a commented template of everything a scene can say"},
-    {"generate", vsc_verb_generate, false, "make the meshes and angle maps that ship with viscera"},
-    {"bench", vsc_verb_bench, true, "this machine's element updates a second; accuracy against known answers"},
-    {"calibrate", vsc_verb_calibrate, true,
-     "stiffness in every direction; springs for wanted moduli"},
-    {"plot", run_plot, false, "draw the graphs and pictures of a simulation's results"},
+    {"run", vsc_verb_run, "simulate a scene; leaves frames, signals, a summary"},
+    {"check", vsc_verb_check, "say what a scene would do, what it would cost, what looks odd"},
+    {"info", vsc_verb_info, "say what meshes, images, series, checkpoints or scenes hold"},
+    {"compare", vsc_verb_compare, "error norms between results, orders of convergence, curves"},
+    {"measure", vsc_verb_measure, "how a slice of the tissue has moved, turned, changed size"},
+    {"schema", vsc_verb_schema, "print a commented template of everything a scene can say"},
+    {"generate", vsc_verb_generate, "make the meshes and angle maps that ship with viscera"},
+    {"bench", vsc_verb_bench, "this machine's element updates a second; accuracy against known answers"},
+    {"calibrate", vsc_verb_calibrate, "stiffness in every direction; springs for wanted moduli"},
+    {"plot", run_plot, "draw the graphs and pictures of a simulation's results"},
 };
 
 enum { VERBS = sizeof verbs / sizeof verbs[0] };
@@ -56,21 +51,6 @@ static void print_help(FILE *stream)
       "Results go to stdout, messages to stderr. Exit codes: 0 good, 2 the user's input,\n"
       "3 numerical failure, 4 system.\n",
       stream);
-}
-
-// libgomp reads its variables before main starts, and by default its idle threads spin: on a busy
-// machine that costs several times the CPU. So a program that is going to use threads starts itself
-// again with the passive policy. A user who has set the policy keeps it; binding stays the user's.
-static void restart_with_passive_threads(char **argv)
-{
-  if (getenv("OMP_WAIT_POLICY") != NULL) return;
-  if (setenv("OMP_WAIT_POLICY", "PASSIVE", 1) != 0) return;
-  // Some ten microseconds of spinning before a thread sleeps: the passes of a small mesh follow one
-  // another that fast (the shipped beat: 1.6 times as fast on two threads, with less processor
-  // time).
-  if (setenv("GOMP_SPINCOUNT", "10000", 0) != 0) return;
-  execv("/proc/self/exe", argv);
-  // Without /proc the program runs all the same, only less politely.
 }
 
 // Graphs need PLplot and cairo, which a simulation should not load: `plot` is a program of its own.
@@ -132,6 +112,5 @@ int main(int argc, char **argv)
   const verb *verb = find_verb(help ? argv[2] : word);
   if (verb == NULL) return VSC_INPUT;
   if (help) return finish(run_verb(verb, 2, help_argv));
-  if (verb->threads) restart_with_passive_threads(argv);
   return finish(run_verb(verb, argc - 1, argv + 1));
 }

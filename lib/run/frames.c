@@ -33,6 +33,7 @@ static const struct {
     {"helix_angle", VSC_FIELD_HELIX_ANGLE, false},
 };
 enum { FIELDS = sizeof known_fields / sizeof known_fields[0] };
+_Static_assert((int)FIELDS < (int)VSC_SNAPSHOT_ARRAYS, "and the regions");
 
 static bool is_wanted(const vsc_output_def *output, const char *name, bool by_default,
                       bool first_frame)
@@ -76,63 +77,56 @@ static double *region_values(const vsc_problem *problem)
   return array != NULL && array->components == 1 ? array->values : NULL;
 }
 
-// Reads the wanted fields into `arrays`; their values are owned by the caller. Returns their
-// number, or -1 when memory is short.
-static int read_fields(vsc_job *job, bool first_frame, vsc_vtk_array *arrays)
+static void add_array(vsc_snapshot *frame, vsc_vtk_array array, bool owned)
+{
+  frame->owned[frame->count] = owned;
+  frame->arrays[frame->count++] = array;
+}
+
+// Reads the wanted fields into the frame.
+static vsc_status read_fields(vsc_job *job, bool first_frame, vsc_snapshot *frame, vsc_error *error)
 {
   const vsc_model *model = job->problem->model;
-  int count = 0;
+  const vsc_output_def *output = &job->problem->scene->output;
   for (int k = 0; k < FIELDS; k++) {
     const vsc_field field = known_fields[k].field;
-    if (!is_wanted(&job->problem->scene->output, known_fields[k].name, known_fields[k].by_default,
-                   first_frame))
-      continue;
+    if (!is_wanted(output, known_fields[k].name, known_fields[k].by_default, first_frame)) continue;
     if (field == VSC_FIELD_GROUP_RATIO && !model->terms.nodal_volume) continue;
     if (field == VSC_FIELD_ACTIVE_TENSION && model->terms.active == VSC_ACTIVE_NONE) continue;
     const bool on_nodes = vsc_field_on_nodes(field);
     const int components = vsc_field_components(field);
     double *values;
-    if (!VSC_NEW(values, components * (on_nodes ? model->node_count : model->element_count))) return -1;
+    if (!VSC_NEW(values, components * (on_nodes ? model->node_count : model->element_count)))
+      return vsc_fail_memory(error, "a frame");
     if (field == VSC_FIELD_HELIX_ANGLE)
       read_helix_angle(job, values);
     else
       vsc_read_field(model, job->state, field, values);
-    arrays[count++] =
-        (vsc_vtk_array){known_fields[k].name, components, values,
-                        on_nodes ? VSC_ON_NODES : VSC_ON_ELEMENTS, false};
+    add_array(frame, (vsc_vtk_array){known_fields[k].name, components, values, on_nodes ? VSC_ON_NODES : VSC_ON_ELEMENTS, false}, true);
   }
-  return count;
-}
-
-static vsc_status write_frame(vsc_job *job, const char *file, bool first_frame, vsc_error *error)
-{
-  const vsc_mesh *mesh = job->problem->mesh;
-  const vsc_output_def *output = &job->problem->scene->output;
-  vsc_mesh shown = *mesh;
-  // a body's own triangles would lie on its elements' faces, without their fields
-  if (mesh->element_count > 0) shown.triangle_count = 0;
-  vsc_vtk_array arrays[FIELDS + 1] = {0};
-  const int fields = read_fields(job, first_frame, arrays);
-  int count = fields;
   double *regions = region_values(job->problem);
-  if (count >= 0 && regions != NULL && is_wanted(output, "region", true, first_frame))
-    arrays[count++] = (vsc_vtk_array){"region", 1, regions, VSC_ON_ELEMENTS, true};
-  vsc_status status;
-  if (count < 0)
-    status = vsc_fail_memory(error, "a frame");
-  else
-    status = vsc_vtk_write_mesh(file, &shown, (size_t)count, arrays, output->double_precision, error);
-  for (int k = 0; k < (fields < 0 ? FIELDS : fields); k++) vsc_free((void *)arrays[k].values);
-  return status;
+  if (regions != NULL && is_wanted(output, "region", true, first_frame))
+    add_array(frame, (vsc_vtk_array){"region", 1, regions, VSC_ON_ELEMENTS, true}, false);
+  return VSC_OK;
 }
 
 vsc_status vsc_job_write_frame(vsc_job *job, vsc_error *error)
 {
-  char path[VSC_PATH], frame[VSC_NAME + 64];
-  const size_t number = vsc_pvd_count(job->pvd);
-  snprintf(frame, sizeof frame, "frames/%s_%05zu.vtu", job->name, number);
-  vsc_job_path(job, frame, path);
-  const vsc_status status = write_frame(job, path, number == 0, error);
-  if (status != VSC_OK) return status;
-  return vsc_pvd_add(job->pvd, 1e-3 * job->state->time, frame, error);
+  vsc_snapshot *frame;
+  if (!VSC_NEW(frame, 1)) return vsc_fail_memory(error, "a frame");
+  frame->shown = *job->problem->mesh;
+  // a body's own triangles would lie on its elements' faces, without their fields
+  if (frame->shown.element_count > 0) frame->shown.triangle_count = 0;
+  frame->time = 1e-3 * job->state->time;
+  frame->double_precision = job->problem->scene->output.double_precision;
+  snprintf(frame->name, sizeof frame->name, "frames/%s_%05zu.vtu", job->name, job->frames);
+  vsc_job_path(job, frame->name, frame->file);
+  const vsc_status status = read_fields(job, job->frames == 0, frame, error);
+  if (status != VSC_OK) {
+    vsc_snapshot_free(frame);
+    return status;
+  }
+  job->frames++;
+  job->last_frame = job->state->time;
+  return vsc_frame_writer_take(job->writer, frame, error);
 }

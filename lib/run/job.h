@@ -5,6 +5,7 @@
 
 #include "io/pvd.h"
 #include "run/cycle.h"
+#include "run/frame_writer.h"
 #include "run/run.h"
 #include "run/watch.h"
 #include "solve/solve.h"
@@ -18,10 +19,15 @@ typedef struct vsc_job {
   char name[VSC_NAME];  // the scene file's name without folder and ending
   vsc_state *state;
   vsc_watch *watch;
-  vsc_pvd *pvd;
+  vsc_pvd *pvd;              // the writer's until that has finished
+  vsc_frame_writer *writer;
+  size_t frames;             // so far, those on their way to the disk too
+  double last_frame;         // time of the last one, ms
   vsc_cycle cycle;
   double *good;  // what vsc_job_keep_good has kept; owned
   double start_wall, start_cpu, start_steps, start_time;
+  double begun_seconds;   // wall clock until the first step could be done, without output
+  double output_seconds;  // wall clock that the run has waited for rows, frames and checkpoints
   double converged_rows;  // of convergence.csv so far
   double most_inverted;  // largest number of elements with J <= 0 at any row
   double repeated;       // how often a stretch was gone again with shorter steps
@@ -35,14 +41,14 @@ void vsc_job_path(const vsc_job *job, const char *what, char path[VSC_PATH]);
 // VSC_INPUT when the scene asks for an array that its model does not have.
 vsc_status vsc_frames_check(const vsc_problem *problem, vsc_error *error);
 
-// Writes the current state as a VTU frame and adds it to the PVD.
+// Gives the current state to the writer, as a VTU frame for the PVD.
 vsc_status vsc_job_write_frame(vsc_job *job, vsc_error *error);
 
 // Appends what Newton's method did since the last call to DIRECTORY/convergence.csv; nothing where the
 // method has no Newton.
 vsc_status vsc_job_write_convergence(vsc_job *job, vsc_error *error);
 
-// Writes or reads DIRECTORY/checkpoint.h5.
+// Writes (behind all frames) or reads DIRECTORY/checkpoint.h5.
 vsc_status vsc_job_save(vsc_job *job, vsc_error *error);
 vsc_status vsc_job_load(vsc_job *job, vsc_error *error);
 

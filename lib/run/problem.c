@@ -161,6 +161,27 @@ vsc_status vsc_in_scene(const char *file, vsc_status status, vsc_error *error)
   return vsc_fail(error, status, "%s: %s", file, bare.text);
 }
 
+static vsc_status read_problem(const char *file, const char *const *settings, size_t setting_count,
+                               vsc_problem *problem, vsc_error *error)
+{
+  vsc_status status = vsc_scene_read(file, settings, setting_count, &problem->scene, error);
+  if (status == VSC_OK)
+    status = vsc_vtk_read_mesh(problem->scene->mesh_file, problem->scene->mesh_unit, &problem->mesh, error);
+  if (status == VSC_OK) status = shape_mesh(problem, file, error);
+  if (status == VSC_OK) status = vsc_in_scene(file, find_points(problem, error), error);
+  if (status == VSC_OK) status = vsc_in_scene(file, make_fibers(problem, error), error);
+  return status == VSC_OK ? vsc_in_scene(file, make_vessels(problem, error), error) : status;
+}
+
+static vsc_status build_problem(vsc_problem *problem, vsc_error *error)
+{
+  const vsc_definition *definition = &problem->scene->definition;
+  vsc_status status = vsc_model_build(problem->mesh, problem->axes, definition, &problem->model, error);
+  if (status == VSC_OK) status = vsc_scale_masses(problem->model, definition, error);
+  if (status == VSC_OK) status = vsc_frames_check(problem, error);
+  return vsc_in_scene(problem->scene->file, status, error);
+}
+
 vsc_status vsc_problem_load(const char *file, const char *const *settings, size_t setting_count,
                             vsc_problem **problem, vsc_error *error)
 {
@@ -168,28 +189,15 @@ vsc_status vsc_problem_load(const char *file, const char *const *settings, size_
   vsc_problem *made;
   *problem = NULL;
   if (!VSC_NEW(made, 1)) return vsc_fail_memory(error, "the scene");
-  vsc_status status = vsc_scene_read(file, settings, setting_count, &made->scene, error);
+  vsc_status status = read_problem(file, settings, setting_count, made, error);
+  made->input_seconds = vsc_wall_seconds() - start;
+  if (status == VSC_OK) status = build_problem(made, error);
+  made->build_seconds = vsc_wall_seconds() - start - made->input_seconds;
   if (status == VSC_OK)
-    status = vsc_vtk_read_mesh(made->scene->mesh_file, made->scene->mesh_unit, &made->mesh, error);
-  if (status == VSC_OK) status = shape_mesh(made, file, error);
-  if (status == VSC_OK) status = vsc_in_scene(file, find_points(made, error), error);
-  if (status == VSC_OK) status = vsc_in_scene(file, make_fibers(made, error), error);
-  if (status == VSC_OK) status = vsc_in_scene(file, make_vessels(made, error), error);
-  if (status == VSC_OK)
-    status = vsc_in_scene(
-        file,
-        vsc_model_build(made->mesh, made->axes, &made->scene->definition, &made->model, error),
-        error);
-  if (status == VSC_OK)
-    status = vsc_in_scene(file, vsc_scale_masses(made->model, &made->scene->definition, error), error);
-  if (status == VSC_OK) status = vsc_in_scene(file, vsc_frames_check(made, error), error);
-  if (status != VSC_OK) {
+    *problem = made;
+  else
     vsc_problem_free(made);
-    return status;
-  }
-  made->load_seconds = vsc_wall_seconds() - start;
-  *problem = made;
-  return VSC_OK;
+  return status;
 }
 
 void vsc_problem_free(vsc_problem *problem)

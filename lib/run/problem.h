@@ -17,7 +17,8 @@ typedef struct vsc_problem {
   vsc_vessel_report *vessels;  // of each of the scene's vessels
   vsc_place *points;           // where each of the scene's output.points lies in the mesh
   vsc_model *model;
-  double load_seconds;  // wall clock of reading and building
+  double input_seconds;        // wall clock of reading the scene, its mesh and its fibres
+  double build_seconds;        // wall clock of building the model
 } vsc_problem;
 
 // Reads the scene `file` with the `settings` (key=value, setting_count of them), its mesh and

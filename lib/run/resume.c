@@ -106,7 +106,10 @@ vsc_status vsc_job_save(vsc_job *job, vsc_error *error)
   take_scalars(job, scalars);
   list_blocks(job, scalars, blocks);
   vsc_job_path(job, "checkpoint.h5", path);
-  return vsc_checkpoint_write(path, job->problem->model->hash, BLOCKS, blocks, error);
+  const vsc_status shown = vsc_frame_writer_finish(job->writer, error);
+  const vsc_status status = vsc_checkpoint_write(path, job->problem->model->hash, BLOCKS, blocks,
+                                                 shown == VSC_OK ? error : NULL);
+  return shown == VSC_OK ? status : shown;
 }
 
 vsc_status vsc_job_load(vsc_job *job, vsc_error *error)

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/mem.h"
+#include "base/parallel.h"
 #include "run/job.h"
 #include "solve/solve.h"
 
@@ -75,7 +76,10 @@ static vsc_status open_series(vsc_job *job, vsc_error *error)
   if (status == VSC_OK) status = vsc_pvd_write(job->pvd, error);
   if (status == VSC_OK && old != NULL) remove_frames(job, old, vsc_pvd_count(job->pvd));
   vsc_pvd_free(old);
-  return status;
+  if (status != VSC_OK) return status;
+  job->frames = vsc_pvd_count(job->pvd);
+  if (job->frames > 0) job->last_frame = 1e3 * vsc_pvd_time(job->pvd, job->frames - 1);
+  return vsc_frame_writer_create(job->pvd, vsc_parallel_threads() > 1, &job->writer, error);
 }
 
 static vsc_status open_files(vsc_job *job, vsc_error *error)
@@ -126,8 +130,26 @@ static vsc_status observe(vsc_job *job, vsc_error *error)
 
 static vsc_status write_row(vsc_job *job, vsc_error *error)
 {
+  const double begin = vsc_wall_seconds();
   const vsc_status status = vsc_watch_row(job->problem, job->state, job->watch, error);
+  job->output_seconds += vsc_wall_seconds() - begin;
   if (status == VSC_OK) vsc_job_keep_good(job);  // with the marks that the row has left
+  return status;
+}
+
+static vsc_status write_frame(vsc_job *job, vsc_error *error)
+{
+  const double begin = vsc_wall_seconds();
+  const vsc_status status = vsc_job_write_frame(job, error);
+  job->output_seconds += vsc_wall_seconds() - begin;
+  return status;
+}
+
+static vsc_status save(vsc_job *job, vsc_error *error)
+{
+  const double begin = vsc_wall_seconds();
+  const vsc_status status = vsc_job_save(job, error);
+  job->output_seconds += vsc_wall_seconds() - begin;
   return status;
 }
 
@@ -152,7 +174,7 @@ static vsc_status start(vsc_job *job, vsc_error *error)
   if (status == VSC_OK) status = open_watch(job, -1, error);
   if (status == VSC_OK) status = observe(job, error);
   if (status == VSC_OK) status = write_row(job, error);
-  if (status == VSC_OK) status = vsc_job_write_frame(job, error);
+  if (status == VSC_OK) status = write_frame(job, error);
   return status;
 }
 
@@ -283,10 +305,10 @@ static vsc_status advance(vsc_job *job, double stop, vsc_error *error)
     if (status == VSC_OK && (last || is_event(before, state->time, output->signal_interval, end)))
       status = write_row(job, error);
     if (status == VSC_OK && (last || is_event(before, state->time, output->frame_interval, end)))
-      status = vsc_job_write_frame(job, error);
+      status = write_frame(job, error);
     if (status == VSC_OK && output->checkpoint_interval > 0 &&
         is_event(before, state->time, output->checkpoint_interval, end))
-      status = vsc_job_save(job, error);
+      status = save(job, error);
     if (status == VSC_OK && job->options->progress != NULL)
       job->options->progress(job->options->progress_context, state->time, end,
                              vsc_wall_seconds() - job->start_wall);
@@ -299,6 +321,8 @@ static void fill_result(const vsc_job *job, vsc_run_result *result)
   result->steps = job->state->steps - job->start_steps;
   result->simulated = job->state->time - job->start_time;
   result->wall_seconds = vsc_wall_seconds() - job->start_wall;
+  result->output_seconds = job->output_seconds;
+  result->frame_cpu_seconds = vsc_frame_writer_seconds(job->writer);
   result->cpu_seconds = vsc_cpu_seconds() - job->start_cpu;
   if (result->cpu_seconds > 0)
     result->updates_per_second =
@@ -308,20 +332,18 @@ static void fill_result(const vsc_job *job, vsc_run_result *result)
   result->repeats = repeats(job);
   result->repeated = job->repeated;
   result->most_inverted = job->most_inverted;
-  result->frames = job->pvd ? vsc_pvd_count(job->pvd) : 0;
+  result->frames = job->frames;
   vsc_job_path(job, ".pvd", result->series);
 }
 
 // Leaves the last good state and the reason; what fails now on top of that is not told.
 static void save_failure(vsc_job *job, vsc_run_result *result, const vsc_error *error)
 {
-  if (job->pvd == NULL || job->watch == NULL || job->watch->rows == 0) return;
+  if (job->writer == NULL || job->watch == NULL || job->watch->rows == 0) return;
   const double repeated = job->repeated;
   vsc_job_go_back(job);
   job->repeated = repeated;
-  const size_t frames = vsc_pvd_count(job->pvd);
-  if (frames == 0 || fabs(vsc_pvd_time(job->pvd, frames - 1) - 1e-3 * job->state->time) > 1e-9)
-    vsc_job_write_frame(job, NULL);
+  if (job->frames == 0 || fabs(job->last_frame - job->state->time) > 1e-6) vsc_job_write_frame(job, NULL);
   vsc_job_save(job, NULL);
   fill_result(job, result);
   vsc_job_summarize(job, result, error ? error->text : "failed", NULL);
@@ -330,6 +352,7 @@ static void save_failure(vsc_job *job, vsc_run_result *result, const vsc_error *
 static void close_job(vsc_job *job)
 {
   vsc_watch_free(job->watch);
+  vsc_frame_writer_free(job->writer);
   vsc_pvd_free(job->pvd);
   vsc_state_free(job->state);
   vsc_free(job->good);
@@ -345,6 +368,7 @@ vsc_status vsc_run(vsc_problem *problem, const vsc_run_options *options, vsc_run
   *result = (vsc_run_result){0};
   name_of_scene(problem->scene->file, job.name);
   vsc_status status = start(&job, error);
+  job.begun_seconds = vsc_wall_seconds() - job.start_wall - job.output_seconds;
   if (status == VSC_OK) {
     job.start_steps = job.options->resume ? job.state->steps : 0;
     job.start_time = job.options->resume ? job.state->time : 0;
@@ -352,7 +376,7 @@ vsc_status vsc_run(vsc_problem *problem, const vsc_run_options *options, vsc_run
     const double stop = options->stop_time > 0 ? fmin(options->stop_time, end) : end;
     status = advance(&job, stop, error);
   }
-  if (status == VSC_OK) status = vsc_job_save(&job, error);
+  if (status == VSC_OK) status = save(&job, error);
   if (status == VSC_OK) {
     fill_result(&job, result);
     status = vsc_job_summarize(&job, result, NULL, error);

@@ -25,6 +25,8 @@ typedef struct vsc_run_result {
   double steps;      // of this call
   double simulated;  // ms, of this call
   double wall_seconds, cpu_seconds;
+  double output_seconds;      // of the wall clock: that stepping has waited for output
+  double frame_cpu_seconds;   // of the processor time: writing frames
   double updates_per_second;  // element updates per CPU second, everything included
   size_t frames;              // in the series now
   double repeated;            // how often a stretch was gone again with shorter steps, of all calls

@@ -94,7 +94,11 @@ static void write_body(const vsc_job *job, const vsc_run_result *result, const c
   write_number(file, "most_inverted_elements", job->most_inverted, ",");
   write_number(file, "most_frames_beyond_exponent", job->most_continued, ",");
   write_number(file, "frames", (double)result->frames, ",");
-  write_number(file, "load_seconds", problem->load_seconds, ",");
+  write_number(file, "input_seconds", problem->input_seconds, ",");
+  write_number(file, "build_seconds", problem->build_seconds, ",");
+  write_number(file, "begin_seconds", job->begun_seconds, ",");
+  write_number(file, "output_seconds", result->output_seconds, ",");
+  write_number(file, "frame_cpu_seconds", result->frame_cpu_seconds, ",");
   write_number(file, "wall_seconds", result->wall_seconds, ",");
   write_number(file, "cpu_seconds", result->cpu_seconds, ",");
   write_number(file, "element_updates_per_cpu_second", result->updates_per_second, ",");

@@ -14,8 +14,8 @@
 // nothing is stiff.
 vsc_status vsc_true_step(const vsc_model *model, vsc_state *state, double *step, vsc_error *error);
 
-// `count` explicit steps of `dt` from rest with small random velocities: how many times as large as these the
-// largest velocity then is, into *growth; INFINITY when it is no number. The state is what that leads to.
+// `count` explicit steps of `dt` from rest with small random velocities: how many times as large as with these the
+// root of the kinetic energy then is, into *growth; INFINITY when it is no number. The state is what that leads to.
 vsc_status vsc_step_growth(const vsc_model *model, vsc_state *state, double dt, double count, double *growth,
                            vsc_error *error);
 
