@@ -18,6 +18,7 @@
 #include "tools/results.h"
 #include "tools/run_plot.h"
 #include "tools/scene_options.h"
+#include "tools/shipped.h"
 #include "tools/verbs.h"
 
 static const char help[] =
@@ -303,7 +304,8 @@ static int keep_option(wish *wish, int option, const char *text)
 
 int vsc_bench_accuracy(int argc, char **argv)
 {
-  wish wish = {.scenes = "data/benchmarks", .limit = 1200, .pictures = true};
+  char shipped[PATH_MAX];
+  wish wish = {.scenes = vsc_shipped("benchmarks", shipped, sizeof shipped), .limit = 1200, .pictures = true};
   int code = keep_output(&wish, "accuracy");
   optind = 0;
   for (int c; code == VSC_OK && (c = getopt_long(argc, argv, "o:s:t:h", options, NULL)) != -1;) {

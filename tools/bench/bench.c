@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "tools/bench/accuracy.h"
+#include "tools/bench/first_frame.h"
 #include "tools/bench/paper.h"
 #include "tools/bench/stability.h"
 #include "tools/bench/throughput.h"
@@ -33,6 +34,7 @@ static const section sections[] = {
     {"throughput", vsc_bench_throughput, true, "million element updates per second, and what the machine could do"},
     {"growth", vsc_bench_growth, true, "time and memory from a thousand tets to a million"},
     {"skipping", vsc_bench_skipping, true, "what features cost, used and idle"},
+    {"start", vsc_bench_start, true, "shell to first frame, and where the time of a run goes"},
     {"error", vsc_bench_error, true, "error against run time, of a beating ventricle"},
     {"stability", vsc_bench_stability, true, "what survives, what is told when it doesn't, and the stable step"},
     {"accuracy", vsc_bench_accuracy, false, "problems with known answers: errors and costs (half an hour)"},

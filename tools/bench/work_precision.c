@@ -13,6 +13,7 @@
 #include "tools/bench/machine.h"
 #include "tools/compare_fields.h"
 #include "tools/results.h"
+#include "tools/shipped.h"
 #include "tools/verbs.h"
 
 static const char help[] =
@@ -247,13 +248,19 @@ int vsc_bench_error(int argc, char **argv)
                                           {"quick", no_argument, NULL, 'q'},
                                           {"help", no_argument, NULL, 'h'},
                                           {0}};
-  wish wish = {.output = "error", .scene = "data/benchmarks/beating_ventricle.yaml"};
+  char shipped[PATH_MAX];
+  wish wish = {.output = "error",
+               .scene = vsc_shipped("benchmarks/beating_ventricle.yaml", shipped, sizeof shipped)};
   for (int c; (c = getopt_long(argc, argv, "o:h", options, NULL)) != -1;) {
     if (c == 'o') wish.output = optarg;
     else if (c == 's') wish.scene = optarg;
     else if (c == 'q') wish.quick = true;
     else if (c == 'h') return fputs(help, stdout) < 0 ? 4 : 0;
     else return 2;
+  }
+  if (optind < argc) {
+    fprintf(stderr, "viscera bench error: '%s' means nothing here\n", argv[optind]);
+    return 2;
   }
   char file[PATH_MAX];
   snprintf(file, sizeof file, "%.4000s/error.csv", wish.output);
