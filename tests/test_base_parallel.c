@@ -3,7 +3,9 @@
 #include "base/parallel.h"
 
 #include <pthread.h>
+#include <sched.h>
 #include <stdatomic.h>
+#include <stdbool.h>
 
 #include "close.h"
 
@@ -66,6 +68,77 @@ static void test_results_are_complete(void **state)
   for (size_t p = 0; p < PIECES; p++) assert_close(values[p], 50.0 * (double)p, 0, 0);
 }
 
+// Calls follow one another as fast as they can, with other numbers of pieces and of threads: none is lost, and none
+// is taken for one of the call before.
+static void count_piece(void *context, size_t piece, int thread)
+{
+  (void)thread;
+  atomic_fetch_add(&((atomic_int *)context)[piece], 1);
+}
+
+static void test_calls_do_not_mix(void **state)
+{
+  (void)state;
+  enum { MOST = 64, CALLS = 20000 };
+  static atomic_int counts[2][MOST];
+  for (unsigned call = 0; call < CALLS; call++) {
+    const size_t pieces = 2 + call * 2654435761u % (MOST - 2);
+    atomic_int *mine = counts[call % 2];
+    vsc_parallel_set_threads(2 + (int)(call * 40503u % THREADS));
+    for (size_t p = 0; p < MOST; p++) atomic_store(&mine[p], 0);
+    vsc_parallel_for(pieces, count_piece, mine);
+    for (size_t p = 0; p < MOST; p++) assert_int_equal(mine[p], p < pieces);
+  }
+}
+
+// A thread that is held up in a piece holds up that piece only: here until all others are done.
+typedef struct race {
+  atomic_int done;
+  atomic_bool held;
+} race;
+
+static void do_or_be_held(void *context, size_t piece, int thread)
+{
+  race *r = context;
+  (void)piece;
+  if (thread == 1 && !atomic_exchange(&r->held, true))
+    while (atomic_load(&r->done) < PIECES - 1) sched_yield();
+  atomic_fetch_add(&r->done, 1);
+}
+
+static void test_a_late_thread_holds_nobody_up(void **state)
+{
+  (void)state;
+  bool held = false;
+  vsc_parallel_set_threads(2);
+  for (int k = 0; k < 1000 && !held; k++) {  // until the second thread has come in time for a piece
+    race r = {0};
+    vsc_parallel_for(PIECES, do_or_be_held, &r);
+    assert_int_equal(r.done, PIECES);
+    held = r.held;
+  }
+  assert_true(held);
+}
+
+// Callers from several threads get all of their own work done.
+static void *call_often(void *context)
+{
+  for (int repeat = 0; repeat < 200; repeat++) vsc_parallel_for(PIECES, add_one, context);
+  return NULL;
+}
+
+static void test_callers_from_several_threads(void **state)
+{
+  (void)state;
+  static double values[3][PIECES];
+  pthread_t callers[3];
+  vsc_parallel_set_threads(2);
+  for (int c = 0; c < 3; c++) assert_int_equal(pthread_create(&callers[c], NULL, call_often, values[c]), 0);
+  for (int c = 0; c < 3; c++) pthread_join(callers[c], NULL);
+  for (int c = 0; c < 3; c++)
+    for (size_t p = 0; p < PIECES; p++) assert_close(values[c][p], 200.0 * (double)p, 0, 0);
+}
+
 static void test_zero_means_all_processors(void **state)
 {
   (void)state;
@@ -80,6 +153,9 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_each_piece_once),
       cmocka_unit_test(test_results_are_complete),
+      cmocka_unit_test(test_calls_do_not_mix),
+      cmocka_unit_test(test_a_late_thread_holds_nobody_up),
+      cmocka_unit_test(test_callers_from_several_threads),
       cmocka_unit_test(test_zero_means_all_processors),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All threading of the library. Work is cut into numbered pieces that do not depend on the number
-// of threads; who does a piece never changes its result.
+// All threading of the library's numbers. Work is cut into numbered pieces that do not depend on the number of
+// threads; who does a piece never changes its result. Threads that have nothing to do sleep, after some ten
+// microseconds in which there might have been something.
 #ifndef VSC_BASE_PARALLEL_H
 #define VSC_BASE_PARALLEL_H
 
@@ -16,7 +17,8 @@ int vsc_parallel_threads(void);
 typedef void vsc_piece(void *context, size_t piece, int thread);
 
 // Calls work(context, piece, thread) once for each piece in [0, pieces), and returns when all are
-// done. Must not be called from within a piece.
+// done. Must not be called from within a piece. Where another thread of the program is calling at the same time, the
+// caller does its pieces alone.
 void vsc_parallel_for(size_t pieces, vsc_piece *work, void *context);
 
 #endif
