@@ -7,7 +7,7 @@ static void sections_are_listed_and_others_refused(void **state)
 {
   (void)state;
   must("$V bench --help");
-  static const char *const sections[] = {"throughput", "growth", "skipping", "error", "accuracy", "paper"};
+  static const char *const sections[] = {"throughput", "growth", "skipping", "start", "error", "stability", "accuracy", "paper"};
   for (size_t k = 0; k < sizeof sections / sizeof sections[0]; k++) assert_non_null(strstr(said, sections[k]));
   assert_int_equal(shell("$V bench speed"), 2);
   assert_non_null(strstr(complained, "speed: no section of that name"));
@@ -50,11 +50,76 @@ static void specimens_are_what_they_say(void **state)
   }
 }
 
+static void pictures_of_tables(void **state)
+{
+  (void)state;
+  static char first[PROGRAM_TEXT], second[PROGRAM_TEXT];
+  static const char head[] = "table,series,what,elements,processor seconds a simulated second,percent of the stroke\n"
+                             "time,\"explicit\",\"a reference\",100,3,nan\ntime,\"explicit\",\"safety, 0.8\",100,3,1e-4\n";
+  char table[1024];
+  snprintf(table, sizeof table, "%sspace,\"tets\",\"tets\",100,2,20\nspace,\"tets\",\"tets\",400,9,5\n", head);
+  save_text("error.csv", table);
+  must("$V plot --errors error.csv -o error.png");
+  const size_t length = load_text("error.png", first, sizeof first);
+  assert_true(length > 1000);
+  assert_memory_equal(first, "\x89PNG", 4);
+  snprintf(table, sizeof table, "%sspace,\"tets\",\"tets\",100,2,20\nspace,\"tets\",\"tets\",400,9,8\n", head);
+  save_text("error.csv", table);
+  must("$V plot --errors error.csv -o error.png");
+  assert_false(load_text("error.png", second, sizeof second) == length && memcmp(first, second, length) == 0);
+  save_text("stability.csv", "stress,law,element,method,outcome\nflat,springs,tets,explicit,survives\n"
+                             "flat,springs,hexes,implicit,stops\n");
+  must("$V plot --outcomes stability.csv -o stability.png");
+  assert_true(load_text("stability.png", first, sizeof first) > 1000);
+  assert_int_equal(shell("$V plot --outcomes error.csv -o no.png"), 2);
+  assert_non_null(strstr(complained, "error.csv: expected stress, law, element, method, outcome"));
+  assert_int_equal(shell("$V plot --errors stability.csv -o no.png"), 2);
+  assert_non_null(strstr(complained, "stability.csv: expected table, series, what"));
+  assert_int_equal(shell("$V plot --errors missing.csv -o no.png"), 2);
+  assert_int_equal(shell("$V plot --errors error.csv"), 2);
+  assert_int_equal(shell("test -e no.png"), 1);
+}
+
+// The first frame is on the disk before the program has ended, and shares of the time are parts of it.
+static void starts_are_timed(void **state)
+{
+  (void)state;
+  double least, median, most, all, parts[5];
+  int threads;
+  must("$V generate block --cells 2,2,2 -o block.vtu");
+  save_text("block.yaml", "mesh: {file: block.vtu, unit: mm}\n"
+                          "node_sets: [{name: foot, node_array: z0, value: 1}]\n"
+                          "materials: [{name: liver, law: neo_hookean, neo_hookean: {shear: 5 kPa}, volume_modulus: 100 kPa}]\n"
+                          "supports: [{set: foot, held: [x, y, z]}]\n"
+                          "gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]\ntime: {end: 1 s}\n");
+  must("$V bench start --scene block.yaml --times 3 -t 1 -o out");
+  const char *line = strstr(said, "shell to first frame");
+  assert_non_null(line);
+  assert_int_equal(sscanf(line, "shell to first frame %lf %lf %lf", &least, &median, &most), 3);
+  assert_true(0 < least && least <= median && median <= most);
+  line = strstr(said, "writing frames\n");
+  assert_non_null(line);
+  assert_int_equal(sscanf(line, "writing frames\n %d %lf %lf %lf %lf %lf %lf", &threads, &all, &parts[0], &parts[1],
+                          &parts[2], &parts[3], &parts[4]), 7);
+  assert_int_equal(threads, 1);
+  double sum = 0;
+  for (int k = 0; k < 5; k++) {
+    assert_true(parts[k] >= 0);
+    sum += parts[k];
+  }
+  assert_close(sum, 100, 0, 0.26);  // each to 0.05
+  assert_int_equal(shell("$V bench start --times 0"), 2);
+  assert_int_equal(shell("$V bench start --scene missing.yaml --times 1 -o out"), 4);
+  assert_non_null(strstr(complained, "log.txt says why"));
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(sections_are_listed_and_others_refused),
       cmocka_unit_test(specimens_are_what_they_say),
+      cmocka_unit_test(pictures_of_tables),
+      cmocka_unit_test(starts_are_timed),
   };
   return cmocka_run_group_tests(tests, program_open, program_close);
 }

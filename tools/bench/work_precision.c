@@ -13,6 +13,7 @@
 #include "tools/bench/machine.h"
 #include "tools/compare_fields.h"
 #include "tools/results.h"
+#include "tools/run_plot.h"
 #include "tools/shipped.h"
 #include "tools/verbs.h"
 
@@ -37,6 +38,7 @@ enum { QUICK_SIZES = 1, SIZES = sizeof sizes / sizeof sizes[0] };
 // A way to run the beat: settings of the scene, and of the mesh's generator.
 typedef struct way {
   const char *name, *generate, *settings[4];
+  const char *series;  // that it belongs to in pictures; NULL: its name
   bool reference;  // what the others are compared with
   int coarser;     // sizes that it leaves out at the fine end
 } way;
@@ -44,15 +46,15 @@ typedef struct way {
 // Of one mesh: how the step matters.
 static const way in_time[] = {
     {.name = "explicit, safety 0.25", .generate = "", .settings = {"time.safety=0.25"}, .reference = true},
-    {.name = "explicit, safety 0.95", .generate = "", .settings = {"time.safety=0.95"}},
-    {.name = "explicit, safety 0.8 (default)", .generate = "", .settings = {"time.safety=0.8"}},
-    {.name = "explicit, safety 0.4", .generate = "", .settings = {"time.safety=0.4"}},
-    {.name = "explicit, masses scaled, 1.25 steps", .generate = "", .settings = {"time.mass_scaling=0.06 ms", "time.most_added_mass=1"}},
-    {.name = "explicit, masses scaled, 2 steps", .generate = "", .settings = {"time.mass_scaling=0.1 ms", "time.most_added_mass=2"}},
-    {.name = "implicit, accuracy 1e-3", .generate = "", .settings = {"solve=implicit", "solver.accuracy=1e-3"}},
-    {.name = "implicit, accuracy 1e-4 (default)", .generate = "", .settings = {"solve=implicit"}},
-    {.name = "implicit, accuracy 1e-5", .generate = "", .settings = {"solve=implicit", "solver.accuracy=1e-5"}},
-    {.name = "implicit, accuracy 1e-6", .generate = "", .settings = {"solve=implicit", "solver.accuracy=1e-6"}},
+    {.name = "explicit, safety 0.95", .series = "explicit", .generate = "", .settings = {"time.safety=0.95"}},
+    {.name = "explicit, safety 0.8 (default)", .series = "explicit", .generate = "", .settings = {"time.safety=0.8"}},
+    {.name = "explicit, safety 0.4", .series = "explicit", .generate = "", .settings = {"time.safety=0.4"}},
+    {.name = "explicit, masses scaled, 1.25 steps", .series = "explicit, masses scaled", .generate = "", .settings = {"time.mass_scaling=0.06 ms", "time.most_added_mass=1"}},
+    {.name = "explicit, masses scaled, 2 steps", .series = "explicit, masses scaled", .generate = "", .settings = {"time.mass_scaling=0.1 ms", "time.most_added_mass=2"}},
+    {.name = "implicit, accuracy 1e-3", .series = "implicit", .generate = "", .settings = {"solve=implicit", "solver.accuracy=1e-3"}},
+    {.name = "implicit, accuracy 1e-4 (default)", .series = "implicit", .generate = "", .settings = {"solve=implicit"}},
+    {.name = "implicit, accuracy 1e-5", .series = "implicit", .generate = "", .settings = {"solve=implicit", "solver.accuracy=1e-5"}},
+    {.name = "implicit, accuracy 1e-6", .series = "implicit", .generate = "", .settings = {"solve=implicit", "solver.accuracy=1e-6"}},
 };
 
 // Of several meshes: what the element matters. The reference is the finest of its kind.
@@ -69,7 +71,7 @@ static const way in_space[] = {
 };
 
 typedef struct measured {
-  char name[96];
+  char name[96], series[96];
   double elements, cost, error;  // processor s a simulated s; percent of the stroke
 } measured;
 
@@ -169,7 +171,7 @@ static void say(const wish *wish, const char *table, const measured *m)
     printf(" %10.3g %%\n", m->error);
   fflush(stdout);
   if (wish->csv != NULL)
-    fprintf(wish->csv, "%s,\"%s\",%.0f,%.6g,%.6g\n", table, m->name, m->elements, m->cost, m->error);
+    fprintf(wish->csv, "%s,\"%s\",\"%s\",%.0f,%.6g,%.6g\n", table, m->series, m->name, m->elements, m->cost, m->error);
 }
 
 static void say_cheapest(const measured *all, size_t count)
@@ -195,6 +197,7 @@ static vsc_status take(const wish *wish, const char *table, const way *way, int 
   snprintf(folder, PATH_MAX, "%.3900s/%s_%zu_%d", wish->output, table, number, size);
   *m = (measured){.error = NAN};
   snprintf(m->name, sizeof m->name, "%s", way->name);
+  snprintf(m->series, sizeof m->series, "%s", way->series != NULL ? way->series : way->name);
   vsc_status status = run(wish, way, size, folder, &cost, error);
   if (status != VSC_OK) return status;
   m->elements = vsc_results_number(folder, "elements");
@@ -241,6 +244,15 @@ static vsc_status bench_space(const wish *wish, vsc_error *error)
   return status;
 }
 
+static void draw(const wish *wish)
+{
+  char csv[PATH_MAX], picture[PATH_MAX];
+  snprintf(csv, sizeof csv, "%.4000s/error.csv", wish->output);
+  snprintf(picture, sizeof picture, "%.4000s/error.png", wish->output);
+  char *words[] = {"plot", "--errors", csv, "-o", picture, NULL};
+  vsc_run_plot(words);
+}
+
 int vsc_bench_error(int argc, char **argv)
 {
   static const struct option options[] = {{"output", required_argument, NULL, 'o'},
@@ -270,12 +282,13 @@ int vsc_bench_error(int argc, char **argv)
     fprintf(stderr, "viscera bench error: %s: cannot be written\n", file);
     return 4;
   }
-  fprintf(wish.csv, "table,what,elements,processor seconds a simulated second,percent of the stroke\n");
+  fprintf(wish.csv, "table,series,what,elements,processor seconds a simulated second,percent of the stroke\n");
   vsc_machine_say(stdout);
   vsc_error error;
   vsc_status status = bench_time(&wish, &error);
   if (status == VSC_OK) status = bench_space(&wish, &error);
   if (status != VSC_OK) fprintf(stderr, "viscera: %s\n", error.text);
   if (fclose(wish.csv) != 0 && status == VSC_OK) return 4;
+  if (status == VSC_OK) draw(&wish);
   return (int)status;
 }

@@ -41,6 +41,7 @@ static size_t number_of(names *list, const char *name)
 static vsc_status read_line(char *line, const char *csv, outcomes *table, vsc_error *error)
 {
   enum { STRESS, LAW, KIND, METHOD, OUTCOME, FIELDS };
+  line[strcspn(line, "\r\n")] = '\0';
   char *field[FIELDS] = {0}, *rest = line;
   for (int k = 0; k < FIELDS && rest != NULL; k++) field[k] = strsep(&rest, ",");
   int outcome = 0;

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "io/vtk.h"
+#include "tools/plot/errors.h"
 #include "tools/plot/outcomes.h"
 #include "tools/plot/page.h"
 #include "tools/plot/polar.h"
@@ -18,6 +19,7 @@ typedef struct request {
   const char *folder;
   const char *polar, *title;  // instead: curves of `viscera calibrate`
   const char *outcomes;       // or what `viscera bench stability` left
+  const char *errors;         // or `viscera bench error`
   char output[VSC_RESULT_PATH];
   vsc_results results;
   char signals[VSC_RESULT_PATH];  // the CSV
@@ -42,6 +44,7 @@ static void print_help(void)
       "      --polar CSV    instead of results: the curves that `viscera calibrate --picture` left\n"
       "      --title TEXT   their title\n"
       "      --outcomes CSV instead of results: what `viscera bench stability` left\n"
+      "      --errors CSV   instead of results: what `viscera bench error` left\n"
       "  -h, --help         this text\n\n"
       "Examples:\n"
       "  viscera plot beat\n"
@@ -181,12 +184,25 @@ static vsc_status read_option(int option, request *wish, vsc_error *error)
     case 'O':
       wish->outcomes = optarg;
       return VSC_OK;
+    case 'E':
+      wish->errors = optarg;
+      return VSC_OK;
     case 'T':
       wish->title = optarg;
       return VSC_OK;
     default:
       return vsc_fail(error, VSC_INPUT, "`viscera plot --help` lists the options");
   }
+}
+
+static vsc_status draw_csv(const request *wish, bool folder, vsc_error *error)
+{
+  if (wish->output[0] == '\0' || folder)
+    return vsc_fail(error, VSC_INPUT, "--%s: give the PNG by -o, and no folder",
+                    wish->polar != NULL ? "polar" : wish->outcomes != NULL ? "outcomes" : "errors");
+  if (wish->polar != NULL) return vsc_polar_draw(wish->polar, wish->title, wish->output, error);
+  return wish->outcomes != NULL ? vsc_outcomes_draw(wish->outcomes, wish->output, error)
+                                : vsc_errors_draw(wish->errors, wish->output, error);
 }
 
 int main(int argc, char **argv)
@@ -196,7 +212,8 @@ int main(int argc, char **argv)
       {"axis", required_argument, NULL, 'a'},   {"from", required_argument, NULL, 'f'},
       {"whole", no_argument, NULL, 'w'},        {"help", no_argument, NULL, 'h'},
       {"version", no_argument, NULL, 'v'},      {"polar", required_argument, NULL, 'p'},
-      {"title", required_argument, NULL, 'T'},  {"outcomes", required_argument, NULL, 'O'}, {0}};
+      {"title", required_argument, NULL, 'T'},  {"outcomes", required_argument, NULL, 'O'},
+      {"errors", required_argument, NULL, 'E'}, {0}};
   if (argc > 1 && (strcmp(argv[1], "--view") == 0 || strcmp(argv[1], "--curves") == 0))
     return vsc_plot_several(argc - 1, argv + 1);
   request wish = {.title = "", .axis = {0, 0, 1}, .time = NAN};
@@ -212,15 +229,8 @@ int main(int argc, char **argv)
     }
     if (read_option(option, &wish, &error) != VSC_OK) return fail(&error);
   }
-  if (wish.polar != NULL || wish.outcomes != NULL) {
-    if (wish.output[0] == '\0' || argc != optind) {
-      vsc_fail(&error, VSC_INPUT, "--%s: give the PNG by -o, and no folder", wish.polar != NULL ? "polar" : "outcomes");
-      return fail(&error);
-    }
-    const vsc_status status = wish.polar != NULL ? vsc_polar_draw(wish.polar, wish.title, wish.output, &error)
-                                                 : vsc_outcomes_draw(wish.outcomes, wish.output, &error);
-    return status == VSC_OK ? VSC_OK : fail(&error);
-  }
+  if (wish.polar != NULL || wish.outcomes != NULL || wish.errors != NULL)
+    return draw_csv(&wish, argc != optind, &error) == VSC_OK ? VSC_OK : fail(&error);
   if (argc - optind != 1) {
     vsc_fail(&error, VSC_INPUT, "give one folder of results; `viscera plot --help` tells more");
     return fail(&error);
