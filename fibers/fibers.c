@@ -87,22 +87,38 @@ static const double *node_vectors(const vsc_mesh *mesh, const char *name)
   return array != NULL && array->components == 3 ? array->values : NULL;
 }
 
-// Vectors on an element's nodes at point q, sum_i N_i v_i, all turned to the side of the first.
-static void interpolate(const vsc_mesh *mesh, size_t element, const double *N, const double *vectors,
+// Weights of an element's vertices: those of its corners N, of which the ones in the middle of edges are shared out.
+static void weigh_vertices(const vsc_cell_kind *kind, const double *N, double *weight)
+{
+  for (int i = 0; i < kind->vertices; i++) weight[i] = N[i];
+  for (int k = 0; kind->corners > kind->vertices && k < kind->edge_count; k++)
+    for (int end = 0; end < 2; end++) weight[kind->edges[k][end]] += 0.5 * N[kind->vertices + k];
+}
+
+// sum_i N_i v_i of vectors on an element's nodes: as they are, or those of the vertices turned to the side of the
+// first. Whether one of these points to the other side.
+static bool interpolate(const vsc_mesh *mesh, size_t element, const double *N, const double *vectors, bool sense_kept,
                         double v[3])
 {
+  const vsc_cell_kind *kind = vsc_mesh_kind(mesh, element);
   const uint32_t *corner = vsc_mesh_corners(mesh, element);
   const double *first = vectors + 3 * (size_t)corner[0];
+  double of_vertices[VSC_MOST_CORNERS];
+  bool opposed = false;
+  weigh_vertices(kind, N, of_vertices);
   for (int a = 0; a < 3; a++) v[a] = 0;
-  for (int i = 0; i < vsc_mesh_kind(mesh, element)->corners; i++) {
+  for (int i = 0; i < (sense_kept ? kind->corners : kind->vertices); i++) {
     const double *own = vectors + 3 * (size_t)corner[i];
-    const double part = vsc_dot(own, first) < 0 ? -N[i] : N[i];
+    const bool against = i < kind->vertices && vsc_dot(own, first) < 0;
+    const double part = sense_kept ? N[i] : against ? -of_vertices[i] : of_vertices[i];
     for (int a = 0; a < 3; a++) v[a] += part * own[a];
+    opposed |= against;
   }
+  return opposed;
 }
 
 // Fibres from vectors on the nodes: at each point of quadratic tets, the mean of other elements.
-static void from_nodes(const vsc_mesh *mesh, const double *fibers, const double *sheets,
+static void from_nodes(const vsc_mesh *mesh, const double *fibers, const double *sheets, bool sense_kept,
                        vsc_axes *axes, vsc_fiber_report *report)
 {
   const vsc_cell_rule rule = vsc_cell_rule_of(VSC_TET10);
@@ -110,16 +126,18 @@ static void from_nodes(const vsc_mesh *mesh, const double *fibers, const double 
   for (int i = 0; i < VSC_MOST_CORNERS; i++) ones[i] = 1;
   for (size_t e = 0; e < mesh->element_count; e++) {
     int known = 1;
+    bool opposed = false;
     for (int q = 0; q < axes->points; q++) {
       const double *N = axes->points > 1 ? rule.N[q] : ones;
       double fiber[3], sheet[3];
-      interpolate(mesh, e, N, fibers, fiber);
-      if (sheets != NULL) interpolate(mesh, e, N, sheets, sheet);
+      opposed = interpolate(mesh, e, N, fibers, sense_kept, fiber);
+      if (sheets != NULL) interpolate(mesh, e, N, sheets, sense_kept, sheet);
       known &= vsc_axes_complete(fiber, sheets != NULL ? sheet : NULL, vsc_axes_frame(axes, e, q));
       if (known && sheets != NULL && q == 0) judge_sheet(fiber, sheet, report);
     }
     vsc_axes_finish(axes, e, known);
     report->invalid += !known;
+    report->opposed += opposed;
   }
   report->constant = all_parallel(axes);
 }
@@ -136,7 +154,7 @@ static vsc_status from_arrays(const vsc_mesh *mesh, const vsc_fiber_def *definit
       return vsc_fail(error, VSC_INPUT,
                       "the mesh has no vectors '%s' on its nodes for the sheet, as '%s' for the fibre",
                       name, definition->fiber_array);
-    from_nodes(mesh, on_nodes, sheets, axes, report);
+    from_nodes(mesh, on_nodes, sheets, definition->sense_kept, axes, report);
     return VSC_OK;
   }
   vsc_status status = find_vectors(mesh, definition->fiber_array, "fibre", &fibers, error);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every source of fibres through vsc_fibers_make.
 #include "close.h"
+#include "mesh/quadratic.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -242,6 +243,53 @@ static void arrays_of_the_nodes(void **state)
   vsc_mesh_free(mesh);
 }
 
+// From -60 to +60 degrees across one layer of elements: as axes through 90 degrees, with their sense kept through 0; the
+// same at the points of quadratic tets, where those on the middles of edges are no help to axes.
+static void senses_that_are_meant(void **state)
+{
+  (void)state;
+  for (int order = 1; order <= 2; order++)
+    for (int kept = 0; kept < 2; kept++) {
+      vsc_mesh *mesh = block();
+      vsc_fiber_def definition = from(VSC_FIBER_ARRAYS);
+      vsc_error error;
+      double low = INFINITY, high = -INFINITY;
+      for (size_t i = 0; i < mesh->node_count; i++) {
+        low = fmin(low, mesh->nodes[3 * i + 2]);
+        high = fmax(high, mesh->nodes[3 * i + 2]);
+      }
+      double *fibers = vsc_arrays_add(&mesh->node_data, "fiber", 3, mesh->node_count)->values;
+      for (size_t i = 0; i < mesh->node_count; i++) {
+        const double side = 2 * (mesh->nodes[3 * i + 2] - low) / (high - low) - 1;
+        fibers[3 * i] = 0.5;
+        fibers[3 * i + 1] = side > 0 ? sqrt(0.75) : -sqrt(0.75);
+      }
+      if (order == 2 && vsc_mesh_raise(&mesh, "block", &error) != VSC_OK) fail_msg("%s", error.text);
+      definition.sense_kept = kept;
+      vsc_fiber_report report;
+      vsc_axes *axes = make(mesh, &definition, &report);
+      size_t opposed = 0;
+      for (size_t e = 0; e < mesh->element_count; e++) {
+        const uint32_t *corner = vsc_mesh_corners(mesh, e);
+        bool mixed = false;
+        for (int i = 1; i < 4; i++)
+          mixed |= vsc_arrays_find(&mesh->node_data, "fiber")->values[3 * corner[i] + 1] !=
+                   vsc_arrays_find(&mesh->node_data, "fiber")->values[3 * corner[0] + 1];
+        opposed += mixed;
+        for (int q = 0; q < axes->points; q++) {
+          const double *f = vsc_axes_frame(axes, e, q);
+          // within the cone of the two that are mixed, about x or about y; sides of 60 degrees are both
+          assert_true(kept ? fabs(f[0]) > 0.5 - 1e-12 : fabs(f[1]) > sqrt(0.75) - 1e-12);
+          if (mixed) assert_true(fabs(fabs(f[0]) - 0.5) > 1e-3);
+        }
+      }
+      assert_true(opposed > 0);
+      assert_int_equal(report.opposed, opposed);
+      vsc_axes_free(axes);
+      vsc_mesh_free(mesh);
+    }
+}
+
 static void map_from_a_file(void **state)
 {
   (void)state;
@@ -280,6 +328,7 @@ int main(void)
       cmocka_unit_test(none_is_passive),    cmocka_unit_test(one_direction),
       cmocka_unit_test(figure_six),         cmocka_unit_test(random_fibers_fill_the_sphere),
       cmocka_unit_test(arrays_of_the_mesh), cmocka_unit_test(arrays_of_the_nodes),
+      cmocka_unit_test(senses_that_are_meant),
       cmocka_unit_test(map_from_a_file),
   };
   return cmocka_run_group_tests_name("fibers/fibers", tests, NULL, NULL);

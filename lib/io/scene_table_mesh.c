@@ -107,11 +107,15 @@ static const vsc_row map_rows[] = {
 };
 GROUP(static, map, -1);
 
+static const vsc_word sense_words[] = {{"ignored", 0}, {"kept", 1}, {NULL, 0}};
+
 static const vsc_row array_rows[] = {
     {"fiber", NAME(vsc_fiber_def, fiber_array), .text = "fiber",
      .meaning = "cell or point array of vectors"},
     {"sheet", NAME(vsc_fiber_def, sheet_array), .text = "sheet",
      .meaning = "likewise; empty: by rule"},
+    {"sense", CHOICE(vsc_fiber_def, sense_kept, sense_words), .text = "ignored",
+     .meaning = "of vectors on points, between which they turn: by less than 90 degrees, or kept: as they are"},
 };
 GROUP(static, array, -1);
 

@@ -20,7 +20,7 @@ typedef struct evaluation {
   double *force;
 } evaluation;
 
-enum { NODES_PER_PIECE = 4096 };
+enum { NODES_PER_PIECE = 256 };
 
 // The memory of one thread, cut into the arrays of a patch.
 typedef struct local_arrays {

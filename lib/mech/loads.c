@@ -89,9 +89,27 @@ static void face_forces(const vsc_model *model, const vsc_pressure *load, size_t
   drag(&load->rule, (const double(*)[3])rest, load->direction, f);
 }
 
+// The same of faces with three nodes, which each take a third: f_i = -p/6 (x_1 - x_0) x (x_2 - x_0).
+static void add_flat_pressure(const vsc_pressure *load, double pressure, const double *x, double *force)
+{
+  for (size_t face = 0; face < load->triangle_count; face++) {
+    const uint32_t *node = load->triangles + 3 * face;
+    double a[3], b[3], n[3];
+    vsc_subtract(x + 4 * (size_t)node[1], x + 4 * (size_t)node[0], a);
+    vsc_subtract(x + 4 * (size_t)node[2], x + 4 * (size_t)node[0], b);
+    vsc_cross(a, b, n);
+    for (int i = 0; i < 3; i++)
+      for (size_t k = 0; k < 3; k++) force[4 * (size_t)node[i] + k] -= pressure / 6 * n[k];
+  }
+}
+
 static void add_pressure(const vsc_model *model, const vsc_pressure *load, double pressure, const double *x,
                          double *force)
 {
+  if (load->rule.nodes == 3 && !is_dead(load)) {
+    add_flat_pressure(load, pressure, x, force);
+    return;
+  }
   for (size_t face = 0; face < load->triangle_count; face++) {
     uint32_t node[VSC_FACE_NODES];
     double at[VSC_FACE_NODES][3], f[VSC_FACE_NODES][3];

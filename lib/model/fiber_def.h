@@ -60,6 +60,8 @@ typedef struct vsc_fiber_def {
                                // neighbours, spreading until none is left; default false
   char fiber_array[VSC_NAME];  // ARRAYS: default "fiber"
   char sheet_array[VSC_NAME];  // ARRAYS: "sheet"; empty: by rule
+  int sense_kept;              // ARRAYS on nodes: 1: between them the vectors are interpolated as they are; 0 (default):
+                               // as axes, whose two senses are the same
   double direction[3];         // CONSTANT: any length
   double sheet_direction[3];   // CONSTANT: 0 0 0: by rule
   char endo[VSC_NAME];         // HELIX, ELLIPSOID: surface where the depth is 0; empty: the

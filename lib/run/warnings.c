@@ -144,6 +144,11 @@ static void warn_fibers(writer *w, const vsc_problem *problem)
          f->coherence[1]);
   if (f->constant)
     warn(w, "fibers: the array holds one and the same direction everywhere: perhaps a dummy");
+  if (!def->sense_kept && f->opposed > f->elements / 50)
+    warn(w, "fibers: within %.0f %% of the elements the vectors on the nodes differ by more than 90 degrees; taken as axes "
+         "they turn the short way round. Where a rule has made them, and their sense is meant, say "
+         "fibers.arrays.sense: kept; else the mesh is too coarse for them",
+         100.0 * (double)f->opposed / (double)f->elements);
   if (f->worst_sheet_angle > 5)
     warn(w, "fibers: sheet and fibre are up to %.0f degrees off a right angle: perhaps dummies",
          f->worst_sheet_angle);

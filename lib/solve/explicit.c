@@ -18,7 +18,7 @@
 #define LONGEST_TRUST 4.0
 // A stable step below this part of the first one belongs to a body that is torn or crushed.
 #define COLLAPSE 1e-3
-enum { FIRST_ITERATIONS = 40, WARM_ITERATIONS = 4, NODES_PER_PIECE = 4096 };
+enum { FIRST_ITERATIONS = 40, WARM_ITERATIONS = 4, NODES_PER_PIECE = 256 };
 
 typedef struct motion {
   const vsc_model *model;
