@@ -218,10 +218,10 @@ static void warn_setting(writer *w, const vsc_problem *problem)
       model->solve.kind != VSC_SOLVE_EQUILIBRIUM)
     warn(w, "supports: nothing is held, so the load will carry the body away");
   char ways[128];
-  if (model->solve.kind == VSC_SOLVE_EQUILIBRIUM && vsc_free_motions(model, ways, sizeof ways) > 0)
-    warn(w, "solve: equilibrium: the body is free to %s, so forces that push it there never balance: hold it by "
-            "supports or robin",
-         ways);
+  const bool rests = model->solve.kind == VSC_SOLVE_EQUILIBRIUM;
+  if ((rests || problem->scene->prestress.loaded) && vsc_free_motions(model, ways, sizeof ways) > 0)
+    warn(w, "%s: the body is free to %s, so forces that push it there never balance: hold it by supports or robin",
+         rests ? "solve: equilibrium" : "prestress", ways);
   bool pushed = vsc_supports_move(model);
   for (size_t o = 0; o < model->obstacle_count; o++)
     pushed |= vsc_norm(model->obstacles[o].motion) > 0;

@@ -71,8 +71,8 @@ static vsc_status iterate(search *s, vsc_error *error)
   if (status != VSC_OK) return status;
   if (!nearer)
     return vsc_fail(error, VSC_NUMERICAL,
-                    "prestress: the shape that is given does not bear the loads as a rest shape (%s); take "
-                    "smaller loads or stiffer tissue", s->reason.text);
+                    "prestress: the shape that is given does not bear the loads as a rest shape; take smaller loads or "
+                    "stiffer tissue: %s", s->reason.text);
   for (int k = 1; k <= problem->most && s->best.largest > problem->tolerance; k++) {
     for (size_t i = 0; i < count; i++)
       s->try_rest[i] = s->rest[i] + relaxation * (problem->target[i] - s->x[i]);
