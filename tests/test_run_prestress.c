@@ -202,7 +202,8 @@ static void under_constant_loads_it_stays(void **state)
 {
   (void)state;
   static const char *const methods[] = {"explicit", "implicit", "equilibrium",
-                                        "equilibrium --set solver.method=relaxation --set solver.tolerance=1e-4"};
+                                        "equilibrium --set solver.method=relaxation --set solver.tolerance=1e-4 "
+                                        "--set 'output.signals=10 ms' --set 'output.frames=10 ms'"};
   vsc_mesh *block = read_mesh("block.vtu");
   for (size_t k = 0; k < sizeof methods / sizeof methods[0]; k++) {
     char command[1024];
