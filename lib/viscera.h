@@ -11,7 +11,7 @@
 //   vsc_state_create, vsc_start, vsc_advance         the moving state, explicitly
 //   vsc_solve_start, vsc_solve_to                    the same by the model's method
 //   vsc_read_field, vsc_observe                      what to see of it
-//   vsc_problem_load, vsc_run                        or everything at once, from a scene file
+//   vsc_problem_load, vsc_unload, vsc_run            or everything at once, from a scene file
 //
 // Units: mm, ms, mg, kPa, mN, uJ. Functions return vsc_status and fill a vsc_error.
 #ifndef VISCERA_H
@@ -32,6 +32,7 @@
 #include "model/definition.h"
 #include "model/model.h"
 #include "run/check.h"
+#include "run/prestress.h"
 #include "run/problem.h"
 #include "run/run.h"
 #include "solve/explicit.h"

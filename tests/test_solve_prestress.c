@@ -49,7 +49,7 @@ static vsc_status find(chain *c, double tolerance, int most, double *rest, vsc_e
     for (int k = 0; k < 4; k++) target[4 * n + k] = k < 3 ? n * (1 + 0.5 * k) : 0;
   const vsc_prestress problem = {.node_count = NODES, .target = target, .tolerance = tolerance,
                                  .most = most, .context = c, .load = hang, .watch = note};
-  return vsc_prestress_find(&problem, rest, error);
+  return vsc_prestress_find(&problem, rest, NULL, error);
 }
 
 static void assert_found(const chain *c, const double *rest, double allowed)

@@ -8,6 +8,7 @@
 
 #include "io/units.h"
 #include "run/check.h"
+#include "run/prestress.h"
 #include "run/run.h"
 #include "tools/scene_options.h"
 #include "tools/verbs.h"
@@ -118,6 +119,14 @@ static void name_directory(const char *scene, char *directory, size_t size)
   if (dot != NULL && dot != directory) *dot = '\0';
 }
 
+static void report_unloaded(const vsc_unloaded *unloaded)
+{
+  if (unloaded == NULL) return;
+  const vsc_prestress_row *last = &unloaded->rows[unloaded->row_count - 1];
+  printf("the shape at rest, in reference.vtu, is up to %.3g mm from the mesh, to which the loads take it to %.2g mm "
+         "(%d iterations)\n", unloaded->furthest, last->largest, last->iteration);
+}
+
 static void report(const vsc_run_result *result)
 {
   printf(
@@ -159,7 +168,7 @@ int vsc_verb_run(int argc, char **argv)
   if (code != 0)
     fprintf(stderr, "viscera: %s\n", error.text);
   else
-    report(&result);
+    report(&result), report_unloaded(problem->unloaded);
   vsc_problem_free(problem);
   return code;
 }

@@ -39,6 +39,14 @@ typedef struct vsc_output_def {
   double checkpoint_interval;  // ms between checkpoints; 0: only at the end; default 0
 } vsc_output_def;
 
+// What shape the mesh is (run/prestress.h).
+typedef struct vsc_prestress_def {
+  bool loaded;       // it is in equilibrium under the loads; default false: it is at rest
+  double time;       // under those of this time, at which the simulation begins, ms; default 0
+  double tolerance;  // by which nodes may be off it then, mm; default 0.01
+  int iterations;    // at most; default 20
+} vsc_prestress_def;
+
 typedef struct vsc_scene {
   char file[VSC_PATH];      // the scene file
   char mesh_file[VSC_PATH]; // resolved against the scene file's folder
@@ -46,6 +54,7 @@ typedef struct vsc_scene {
   int mesh_order;           // 1: elements as the file has them (default), 2: tets made quadratic
   size_t curved_count;      // surfaces whose edges are bent
   vsc_curved_def *curved;   // owned
+  vsc_prestress_def prestress;
   vsc_fiber_def fibers;     // its map file resolved likewise
   vsc_definition definition;
   vsc_output_def output;

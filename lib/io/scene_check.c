@@ -221,6 +221,48 @@ static vsc_status check_output(vsc_reading *reading, const vsc_scene *scene)
   return status;
 }
 
+// What has no unloaded shape (yet), as keys and what to do; NULL: nothing.
+static const char *what_does_not_unload(const vsc_definition *d)
+{
+  for (size_t m = 0; m < d->material_count; m++) {
+    if (!vsc_law_is_of_strain(d->materials[m].law)) return "law: paper or classical; take law: springs";
+    if (d->materials[m].prony_count > 0) return "prony, whose stress depends on the way; leave prony out";
+  }
+  if (d->membrane_count > 0) return "membranes; leave them out";
+  if (d->obstacle_count > 0) return "obstacles; leave them out";
+  if (d->kept_volume != VSC_KEEP_NONE) return "keep_volume; take a large volume_modulus";
+  if (d->solve.incompressible > 0) return "solver.incompressible; take a large volume_modulus";
+  return NULL;
+}
+
+static vsc_status check_prestress(vsc_reading *reading, const vsc_scene *scene)
+{
+  const vsc_prestress_def *p = &scene->prestress;
+  const vsc_definition *d = &scene->definition;
+  if (!p->loaded) return VSC_OK;
+  const char *not = what_does_not_unload(d);
+  const size_t length = vsc_enter(reading, "prestress");
+  const size_t group = vsc_enter(reading, "mesh");
+  if (not != NULL) return vsc_reading_fail(reading, "loaded; not with %s", not);
+  vsc_leave(reading, group);
+  vsc_enter(reading, "time");
+  if (!(p->time >= 0 && p->time < d->end_time))
+    return vsc_reading_fail(reading, "%g ms; expected a time from 0 ms on and before time.end, %g ms", p->time,
+                            d->end_time);
+  const double steps = d->step > 0 ? p->time / d->step : 0;
+  if (fabs(steps - round(steps)) > 1e-9 * fmax(steps, 1))
+    return vsc_reading_fail(reading, "%g ms; expected a multiple of time.step, %g ms", p->time, d->step);
+  vsc_leave(reading, group);
+  vsc_enter(reading, "tolerance");
+  if (!(p->tolerance > 0 && isfinite(p->tolerance)))
+    return vsc_reading_fail(reading, "%g mm; expected a length above zero", p->tolerance);
+  vsc_leave(reading, group);
+  vsc_enter(reading, "iterations");
+  if (p->iterations < 1) return vsc_reading_fail(reading, "%d; expected one at least", p->iterations);
+  vsc_leave(reading, length);
+  return VSC_OK;
+}
+
 static vsc_status check_cycle(vsc_reading *reading, const vsc_definition *d)
 {
   if (d->cycle == 0) return VSC_OK;
@@ -249,6 +291,7 @@ vsc_status vsc_scene_check(vsc_reading *reading, const vsc_scene *scene)
   if (status != VSC_OK) return vsc_reading_locate(reading, &found);
   status = check_pressures(reading, scene);
   if (status == VSC_OK) status = check_cycle(reading, &scene->definition);
+  if (status == VSC_OK) status = check_prestress(reading, scene);
   if (status == VSC_OK) status = check_fibers(reading, scene);
   if (status == VSC_OK) status = check_vessels(reading, &scene->definition);
   return status == VSC_OK ? check_output(reading, scene) : status;

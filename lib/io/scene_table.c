@@ -36,6 +36,20 @@ static const vsc_row mesh_rows[] = {
 };
 GROUP(static, mesh, -1);
 
+static const vsc_word mesh_shapes[] = {{"unloaded", false}, {"loaded", true}, {NULL, 0}};
+
+static const vsc_row prestress_rows[] = {
+    {"mesh", CHOICE(vsc_prestress_def, loaded, mesh_shapes), .text = "loaded",
+     .meaning = "the mesh is in equilibrium under the loads (a medical image); default unloaded: it is at rest"},
+    {"time", QUANTITY(vsc_prestress_def, time, VSC_TIME), .text = "0 ms",
+     .meaning = "under those of this time, at which the simulation begins"},
+    {"tolerance", QUANTITY(vsc_prestress_def, tolerance, VSC_LENGTH), .text = "0.01 mm",
+     .meaning = "by which nodes may be off the mesh then"},
+    {"iterations", .kind = VSC_ROW_WHOLE_INT, AT(vsc_prestress_def, iterations), .text = "20",
+     .meaning = "at most, until the shape at rest is found"},
+};
+GROUP(static, prestress, -1);
+
 // ---- how it is solved
 
 static const vsc_word solve_kinds[] = {{"explicit", VSC_SOLVE_EXPLICIT},
@@ -206,6 +220,8 @@ static const vsc_row vsc_scene_group_rows[] = {
      .meaning = "that follow their surface"},
     {"initial_velocity", PART(offsetof(vsc_scene, definition.velocity), vsc_velocity_group),
      .commented = true, .meaning = "of the nodes at the start; absent: at rest"},
+    {"prestress", PART(offsetof(vsc_scene, prestress), prestress), .commented = true,
+     .meaning = "where the mesh is not the body at rest"},
     {"solve", CHOICE(vsc_scene, definition.solve.kind, solve_kinds), .text = "explicit",
      .meaning = "explicit or implicit (motion), or equilibrium (forces balance, no inertia)"},
     {"solver", PART(offsetof(vsc_scene, definition), solver), .commented = true,

@@ -65,6 +65,7 @@ typedef struct vsc_moved_sums {
 typedef struct vsc_state {
   double time;    // ms
   double steps;   // done so far (an integer)
+  bool loaded;    // the loads are borne at the start already: a first equilibrium does not let them come up
   double *x;      // node_count x 4: position, mm; owned
   double *v;      // node_count x 4: velocity, mm/ms; owned
   double *a;      // node_count x 4: acceleration at x, v, time, mm/ms^2; owned

@@ -125,6 +125,52 @@ void vsc_axes_finish(vsc_axes *axes, size_t element, int known)
     memcpy(vsc_axes_frame(axes, element, q), global, sizeof global);
 }
 
+// dx/dxi_k of an element with its nodes at `nodes`, sums over points [first, end) of its rule.
+static void tangents(const vsc_mesh *mesh, const vsc_cell_rule *rule, const double *nodes, size_t element,
+                     int first, int end, double t[3][3])
+{
+  const uint32_t *corner = vsc_mesh_corners(mesh, element);
+  memset(t, 0, 9 * sizeof(double));
+  for (int q = first; q < end; q++)
+    for (int k = 0; k < 3; k++)
+      for (int i = 0; i < vsc_mesh_kind(mesh, element)->corners; i++)
+        for (int a = 0; a < 3; a++)
+          t[k][a] += rule->weight[q] * rule->D[q][k][i] * nodes[3 * (size_t)corner[i] + (size_t)a];
+}
+
+// F^-1 v = sum_k r_k (v . (t_k+1 x t_k+2))/det, with dx/dxi_k = t_k and r_k at rest.
+static void carry_back(double now[3][3], double rest[3][3], const double v[3], double back[3])
+{
+  double across[3];
+  vsc_cross(now[1], now[2], across);
+  const double det = vsc_dot(now[0], across);
+  memset(back, 0, 3 * sizeof *back);
+  for (int k = 0; k < 3; k++) {
+    vsc_cross(now[(k + 1) % 3], now[(k + 2) % 3], across);
+    for (int a = 0; a < 3; a++) back[a] += vsc_dot(v, across) / det * rest[k][a];
+  }
+}
+
+void vsc_axes_carry_back(const vsc_axes *axes, const vsc_mesh *mesh, const double *rest, vsc_axes *back)
+{
+  vsc_cell_rule rules[VSC_CELLS];
+  for (int kind = 0; kind < VSC_CELLS; kind++) rules[kind] = vsc_cell_rule_of((vsc_cell)kind);
+  memcpy(back->known, axes->known, axes->count * sizeof *axes->known);
+  memcpy(back->frames, axes->frames, 9 * (size_t)axes->points * axes->count * sizeof *axes->frames);
+  for (size_t e = 0; e < axes->count; e++)
+    for (int q = 0; axes->known[e] && q < axes->points; q++) {
+      const vsc_cell_rule *rule = &rules[mesh->kinds[e]];
+      const int first = axes->points > 1 ? q : 0, end = axes->points > 1 ? q + 1 : rule->points;
+      const double *frame = vsc_axes_frame(axes, e, q);
+      double now[3][3], before[3][3], f[3], s[3];
+      tangents(mesh, rule, mesh->nodes, e, first, end, now);
+      tangents(mesh, rule, rest, e, first, end, before);
+      carry_back(now, before, frame, f);
+      carry_back(now, before, frame + 3, s);
+      vsc_axes_complete(f, s, vsc_axes_frame(back, e, q));
+    }
+}
+
 int vsc_axes_valid(const vsc_axes *axes)
 {
   for (size_t i = 0; i < (size_t)axes->points * axes->count; i++) {

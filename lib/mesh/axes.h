@@ -53,6 +53,12 @@ void vsc_axes_finish(vsc_axes *axes, size_t element, int known);
 // zero (shorter than 1e-6) or not finite; else 1.
 int vsc_axes_complete(const double fiber[3], const double *sheet, double frame[9]);
 
+// Axes at rest, of the same size as `axes`, that the motion from `rest` (node_count x 3, mm) to the mesh's nodes
+// carries to `axes`: with its gradient F (of elements of one frame its mean over the points of their rule)
+//   f_0 along F^-1 f, s_0 in the plane of F^-1 f and F^-1 s, n_0 = f_0 x s_0,
+// since what is drawn on the tissue moves by F. Elements whose fibre is not known keep their frame.
+void vsc_axes_carry_back(const vsc_axes *axes, const vsc_mesh *mesh, const double *rest, vsc_axes *back);
+
 // True when each frame is orthonormal and right-handed to 1e-9.
 int vsc_axes_valid(const vsc_axes *axes);
 

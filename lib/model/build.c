@@ -402,7 +402,7 @@ static vsc_status check_order(const vsc_mesh *mesh, const vsc_definition *defini
                   key);
 }
 
-static vsc_status build(const vsc_mesh *mesh, const vsc_axes *axes,
+static vsc_status build(const vsc_mesh *mesh, const vsc_mesh *shown, const vsc_axes *axes,
                         const vsc_definition *definition, uint32_t *material_of, uint8_t *mixed,
                         vsc_model *model, vsc_error *error)
 {
@@ -417,7 +417,7 @@ static vsc_status build(const vsc_mesh *mesh, const vsc_axes *axes,
   vsc_status status = check_order(mesh, definition, error);
   if (status == VSC_OK) status = assign_materials(mesh, definition, material_of, error);
   if (status == VSC_OK) status = build_materials(definition, model, error);
-  if (status == VSC_OK) status = vsc_terms_selections(mesh, definition, model, error);
+  if (status == VSC_OK) status = vsc_terms_selections(shown, definition, model, error);
   if (status == VSC_OK)
     status = build_elements(mesh, axes, definition, material_of, mixed, model, error);
   if (status != VSC_OK) return status;
@@ -440,6 +440,12 @@ static vsc_status build(const vsc_mesh *mesh, const vsc_axes *axes,
 vsc_status vsc_model_build(const vsc_mesh *mesh, const vsc_axes *axes,
                            const vsc_definition *definition, vsc_model **model, vsc_error *error)
 {
+  return vsc_model_build_shown(mesh, mesh, axes, definition, model, error);
+}
+
+vsc_status vsc_model_build_shown(const vsc_mesh *mesh, const vsc_mesh *shown, const vsc_axes *axes,
+                                 const vsc_definition *definition, vsc_model **model, vsc_error *error)
+{
   *model = NULL;
   vsc_status status = vsc_definition_check(definition, error);
   if (status != VSC_OK) return status;
@@ -461,7 +467,7 @@ vsc_status vsc_model_build(const vsc_mesh *mesh, const vsc_axes *axes,
   uint8_t *mixed = NULL;
   if (!VSC_NEW(built, 1)) return vsc_fail_memory(error, "the model");
   if (VSC_NEW(material_of, mesh->element_count) && VSC_NEW(mixed, mesh->element_count))
-    status = build(mesh, axes, definition, material_of, mixed, built, error);
+    status = build(mesh, shown, axes, definition, material_of, mixed, built, error);
   else
     status = vsc_fail_memory(error, "the model");
   vsc_free(material_of);

@@ -147,9 +147,8 @@ typedef struct vsc_material {
   vsc_prony_def branches[VSC_MOST_BRANCHES];
 } vsc_material;
 
-// A block of elements, neighbours in space, of one family and one material. Its nodes are numbered
-// from 0: first the nodes that no other patch has (consecutive nodes of the model), then the shared
-// ones.
+// A block of elements, neighbours in space, of one family and one material. Its nodes are numbered from 0: first the
+// nodes that no other patch has (consecutive nodes of the model), then the shared ones.
 typedef struct vsc_patch {
   uint32_t family;    // a vsc_family
   uint32_t material;  // of a membrane's triangles and bends: the membrane
@@ -325,13 +324,17 @@ typedef struct vsc_model {
   uint64_t hash;        // of everything above: two models with equal hashes move alike
 } vsc_model;
 
-// Builds the model of `definition` on `mesh` with the elements' `axes` (NULL: none are known, all
-// elements are passive with global axes; one frame for all points of an element will do). Nothing is kept of the arguments. VSC_INPUT for what
-// does not fit together: a region without material, a missing array, an empty set, a surface
-// that is not there, an active material without fibres, axes that are not
-// orthonormal. The caller owns *model.
+// Builds the model of `definition` on `mesh` with the elements' `axes` (NULL: none are known, all elements are
+// passive with global axes; one frame for all points of an element will do). Nothing is kept of the arguments.
+// VSC_INPUT for what does not fit together: a region without material, a missing array, an empty set, a surface that
+// is not there, an active material without fibres, axes that are not orthonormal. The caller owns *model.
 vsc_status vsc_model_build(const vsc_mesh *mesh, const vsc_axes *axes,
                            const vsc_definition *definition, vsc_model **model, vsc_error *error);
+
+// The same where `mesh` is the body at rest, and surfaces and node sets are meant of `shown`: the same mesh with its
+// nodes elsewhere.
+vsc_status vsc_model_build_shown(const vsc_mesh *mesh, const vsc_mesh *shown, const vsc_axes *axes,
+                                 const vsc_definition *definition, vsc_model **model, vsc_error *error);
 
 void vsc_model_free(vsc_model *model);  // NULL is fine
 
@@ -369,8 +372,7 @@ static inline size_t vsc_nodes_offset(const vsc_model *model, uint32_t family)
 // The tets' kernel reads as a vsc_pack what others read as a frame and its nodes.
 _Static_assert(offsetof(vsc_pack, node) == sizeof(vsc_frame), "a tet's pack is a frame and nodes");
 
-// Pack `k` (counted through all patches) of a patch: its frames (of cells only), and its nodes
-// [corner][lane] as numbers within the patch.
+// Pack `k` (counted through all patches) of a patch: its frames (of cells only), and its nodes [corner][lane].
 static inline const vsc_frame *vsc_pack_frames(const vsc_model *model, const vsc_patch *patch,
                                                size_t k)
 {
@@ -460,8 +462,7 @@ static inline uint32_t vsc_node_of(const vsc_model *model, const vsc_patch *patc
                                   : model->shared[patch->first_shared + local - patch->own_count];
 }
 
-// The model's number of each node of the mesh (node_count), owned by the caller; NULL when memory
-// is short.
+// The model's number of each node of the mesh (node_count), owned by the caller; NULL when memory is short.
 uint32_t *vsc_model_node_numbers(const vsc_model *model);
 
 // The number of the named surface, or -1.
@@ -473,9 +474,9 @@ double vsc_model_pressure(const vsc_model *model, size_t p, double time);
 // Whether any support moves.
 bool vsc_supports_move(const vsc_model *model);
 
-// Puts the nodes of moving supports where they are at `time` (ms), in the directions in which they are
-// moved: x (node_count x 4, mm) = rest + load . motion . curve(time). `load`: the part of the motion that
-// is taken, 1 but on the way to a first equilibrium.
+// Puts the nodes of moving supports where they are at `time` (ms), in the directions in which they are moved: x
+// (node_count x 4, mm) = rest + load . motion . curve(time). `load`: the part of the motion that is taken, 1 but on the
+// way to a first equilibrium.
 void vsc_supports_place(const vsc_model *model, double time, double load, double *x);
 
 // Kept volume k at positions x (node_count x 4), mm^3.
@@ -484,8 +485,7 @@ double vsc_kept_volume_of(const vsc_model *model, size_t k, const double *x);
 // Where an obstacle is at `time`: its point or centre, mm.
 void vsc_obstacle_place(const vsc_obstacle *obstacle, double time, double point[3]);
 
-// How far `x` is outside an obstacle whose point is at `point` (below 0: inside), mm, and the unit
-// vector that leads out of it.
+// How far `x` is outside an obstacle whose point is at `point` (below 0: inside), mm, and the unit vector out of it.
 double vsc_obstacle_gap(const vsc_obstacle *obstacle, const double point[3], const double x[3],
                         double normal[3]);
 

@@ -98,6 +98,16 @@ static void say_supports(const vsc_problem *problem, FILE *out)
           problem->model->node_count);
 }
 
+static void say_prestress(const vsc_problem *problem, FILE *out)
+{
+  const vsc_prestress_def *def = &problem->scene->prestress;
+  if (def->loaded)
+    fprintf(out,
+            "prestress  the mesh is the shape under the loads of %g ms, where the run begins; it will find the shape at "
+            "rest, to %g mm in at most %d iterations; what follows takes the mesh for it\n",
+            def->time, def->tolerance, def->iterations);
+}
+
 static void say_points(const vsc_problem *problem, FILE *out)
 {
   const vsc_output_def *output = &problem->scene->output;
@@ -367,12 +377,12 @@ static vsc_status say_cost(const vsc_problem *problem, vsc_state *state, FILE *o
   const vsc_model *model = problem->model;
   const vsc_output_def *output = &problem->scene->output;
   const double dt = model->step > 0 ? model->step : state->limit.step;
-  const double steps = model->end_time / dt;
+  const double steps = (model->end_time - problem->scene->prestress.time) / dt;
   double seconds;
   const vsc_status status = measure_step(model, state, &seconds, error);
   if (status != VSC_OK) return status;
   seconds *= steps;
-  const double frames = 1 + model->end_time / output->frame_interval;
+  const double frames = 1 + steps * dt / output->frame_interval;
   const double number = output->double_precision ? 8 : 4;
   const double frame =
       0.6 * number * (9.0 * (double)model->node_count + 6.0 * (double)model->element_count) +
@@ -381,7 +391,7 @@ static vsc_status say_cost(const vsc_problem *problem, vsc_state *state, FILE *o
           "cost       %.4g ms = about %.0f steps: %.3g s of work on %d thread%s (%s); %.3g MB of "
           "memory; %.0f "
           "frames, about %.3g MB on disk\n",
-          model->end_time, steps, seconds, vsc_parallel_threads(),
+          steps * dt, steps, seconds, vsc_parallel_threads(),
           vsc_parallel_threads() > 1 ? "s" : "", vsc_kernel_set(), 1e-6 * memory_bytes(model),
           frames, 1e-6 * frames * frame);
   return VSC_OK;
@@ -439,6 +449,7 @@ vsc_status vsc_check(const vsc_problem *problem, FILE *stream, int *warnings, vs
   for (size_t s = 0; s < model->surface_count; s++)
     say_surface(problem, &model->surfaces[s], stream);
   say_supports(problem, stream);
+  say_prestress(problem, stream);
   say_points(problem, stream);
   if (problem->mesh->element_count > 0) say_fibers(problem, stream);
   say_vessels(problem, stream);

@@ -70,6 +70,15 @@ static void read_helix_angle(const vsc_job *job, double *values)
   vsc_read_helix_angle(job->problem->model, job->state, scene->output.centre, axis, values);
 }
 
+// x - X with the mesh's nodes X, whatever the shape at rest is.
+static void read_displacement(const vsc_job *job, double *values)
+{
+  const vsc_model *model = job->problem->model;
+  for (size_t n = 0; n < model->node_count; n++)
+    for (size_t i = 0, at = 3 * (size_t)model->mesh_node[n]; i < 3; i++)
+      values[at + i] = job->state->x[4 * n + i] - job->problem->mesh->nodes[at + i];
+}
+
 static double *region_values(const vsc_problem *problem)
 {
   const vsc_array *array =
@@ -100,6 +109,8 @@ static vsc_status read_fields(vsc_job *job, bool first_frame, vsc_snapshot *fram
       return vsc_fail_memory(error, "a frame");
     if (field == VSC_FIELD_HELIX_ANGLE)
       read_helix_angle(job, values);
+    else if (field == VSC_FIELD_DISPLACEMENT)
+      read_displacement(job, values);
     else
       vsc_read_field(model, job->state, field, values);
     add_array(frame, (vsc_vtk_array){known_fields[k].name, components, values, on_nodes ? VSC_ON_NODES : VSC_ON_ELEMENTS, false}, true);

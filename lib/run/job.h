@@ -44,6 +44,11 @@ vsc_status vsc_frames_check(const vsc_problem *problem, vsc_error *error);
 // Gives the current state to the writer, as a VTU frame for the PVD.
 vsc_status vsc_job_write_frame(vsc_job *job, vsc_error *error);
 
+// Writes what problem->unloaded has to DIRECTORY/prestress.csv and, where the shape at rest was found (problem->model
+// is of it), the shape to DIRECTORY/reference.vtu: double precision, with the displacement to the mesh, the axes and
+// the regions. A reference.vtu of another run is removed.
+vsc_status vsc_job_write_unloaded(vsc_job *job, vsc_error *error);
+
 // Appends what Newton's method did since the last call to DIRECTORY/convergence.csv; nothing where the
 // method has no Newton.
 vsc_status vsc_job_write_convergence(vsc_job *job, vsc_error *error);

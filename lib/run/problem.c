@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "io/vtk.h"
 #include "run/job.h"
+#include "run/prestress.h"
 #include "solve/mass_scaling.h"
 
 double vsc_wall_seconds(void)
@@ -200,9 +201,23 @@ vsc_status vsc_problem_load(const char *file, const char *const *settings, size_
   return status;
 }
 
+vsc_status vsc_problem_start(const vsc_problem *problem, vsc_state **state, vsc_error *error)
+{
+  const vsc_model *model = problem->model;
+  const vsc_unloaded *unloaded = problem->unloaded;
+  const vsc_status status = vsc_state_create(model, state, error);
+  if (status != VSC_OK || unloaded == NULL || !unloaded->found) return status;
+  for (size_t n = 0; n < model->node_count; n++)
+    memcpy((*state)->x + 4 * n, unloaded->start + 4 * (size_t)model->mesh_node[n], 4 * sizeof(double));
+  (*state)->time = problem->scene->prestress.time;
+  (*state)->loaded = true;
+  return VSC_OK;
+}
+
 void vsc_problem_free(vsc_problem *problem)
 {
   if (problem == NULL) return;
+  vsc_unloaded_free(problem->unloaded);
   vsc_model_free(problem->model);
   vsc_axes_free(problem->axes);
   vsc_free(problem->vessels);

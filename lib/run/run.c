@@ -10,6 +10,7 @@
 #include "base/mem.h"
 #include "base/parallel.h"
 #include "run/job.h"
+#include "run/prestress.h"
 #include "solve/solve.h"
 
 #define LONGEST_LOOK 1.0  // ms between two looks of the energy ledger
@@ -91,6 +92,10 @@ static vsc_status open_files(vsc_job *job, vsc_error *error)
     remove_file(job, "summary.json");
     remove_file(job, "convergence.csv");
   }
+  if (status == VSC_OK && !job->problem->scene->prestress.loaded) {
+    remove_file(job, "prestress.csv");
+    remove_file(job, "reference.vtu");
+  }
   vsc_job_path(job, "scene.yaml", path);
   if (status == VSC_OK) status = vsc_scene_write(job->problem->scene, path, error);
   return status == VSC_OK ? open_series(job, error) : status;
@@ -153,10 +158,21 @@ static vsc_status save(vsc_job *job, vsc_error *error)
   return status;
 }
 
+// The shape at rest, with a table of how it was found, or of how it was not.
+static vsc_status unload(vsc_job *job, vsc_error *error)
+{
+  vsc_status status = make_directories(job, error);
+  if (status != VSC_OK) return status;
+  status = vsc_in_scene(job->problem->scene->file, vsc_unload(job->problem, error), error);
+  const vsc_status written = vsc_job_write_unloaded(job, status == VSC_OK ? error : NULL);
+  return status == VSC_OK ? written : status;
+}
+
 static vsc_status start(vsc_job *job, vsc_error *error)
 {
   vsc_problem *problem = job->problem;
-  vsc_status status = vsc_state_create(problem->model, &job->state, error);
+  vsc_status status = problem->scene->prestress.loaded ? unload(job, error) : VSC_OK;
+  if (status == VSC_OK) status = vsc_problem_start(problem, &job->state, error);
   if (status == VSC_OK && problem->model->cycle > 0)
     status = vsc_cycle_begin(problem->model, job->state, &job->cycle, error);
   if (status == VSC_OK) status = vsc_job_make_good(job, error);
@@ -370,8 +386,8 @@ vsc_status vsc_run(vsc_problem *problem, const vsc_run_options *options, vsc_run
   vsc_status status = start(&job, error);
   job.begun_seconds = vsc_wall_seconds() - job.start_wall - job.output_seconds;
   if (status == VSC_OK) {
-    job.start_steps = job.options->resume ? job.state->steps : 0;
-    job.start_time = job.options->resume ? job.state->time : 0;
+    job.start_steps = job.state->steps;
+    job.start_time = job.state->time;
     const double end = problem->model->end_time;
     const double stop = options->stop_time > 0 ? fmin(options->stop_time, end) : end;
     status = advance(&job, stop, error);

@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "mech/kernel.h"
 #include "run/job.h"
+#include "run/prestress.h"
 #include "solve/implicit.h"
 
 // A text as a JSON string.
@@ -48,6 +49,17 @@ static void write_newton(const vsc_job *job, FILE *file)
   write_number(file, "steps_failed", counts.failed, ",");
 }
 
+static void write_unloaded(const vsc_problem *problem, FILE *file)
+{
+  const vsc_unloaded *unloaded = problem->unloaded;
+  if (unloaded == NULL) return;
+  const vsc_prestress_row *last = &unloaded->rows[unloaded->row_count - 1];
+  write_number(file, "prestress_iterations", last->iteration, ",");
+  write_number(file, "prestress_largest_mm", last->largest, ",");
+  write_number(file, "prestress_mean_mm", last->mean, ",");
+  write_number(file, "prestress_rest_to_mesh_mm", unloaded->furthest, ",");
+}
+
 static void write_body(const vsc_job *job, const vsc_run_result *result, const char *failure,
                        FILE *file)
 {
@@ -76,6 +88,7 @@ static void write_body(const vsc_job *job, const vsc_run_result *result, const c
     write_number(file, "most_added_mass_of_a_node", model->scaled.most, ",");
     write_number(file, "nodes_with_added_mass", (double)model->scaled.nodes, ",");
   }
+  write_unloaded(problem, file);
   write_number(file, "time_s", 1e-3 * job->state->time, ",");
   write_number(file, "steps", job->state->steps, ",");
   write_number(file, "steps_this_run", result->steps, ",");

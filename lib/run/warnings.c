@@ -188,6 +188,27 @@ static void warn_layers(writer *w, const vsc_problem *problem)
          problem->scene->definition.tets == VSC_TETS_SMOOTHED ? ", or tets: plain" : "");
 }
 
+// Whether anything pulls at the body at the time where it is loaded.
+static bool is_loaded(const vsc_model *model, double time)
+{
+  bool loaded = model->terms.gravity || model->delay != NULL;
+  for (size_t p = 0; p < model->pressure_count; p++) loaded |= vsc_model_pressure(model, p, time) != 0;
+  for (size_t s = 0; s < model->moved_count; s++) loaded |= vsc_curve_value(&model->moved[s].curve, time) != 0;
+  for (size_t m = 0; m < model->material_count; m++) {
+    const vsc_material *material = &model->materials[m];
+    loaded |= material->active != VSC_ACTIVE_NONE && vsc_curve_value(&material->curve, time - material->delay) != 0;
+  }
+  return loaded;
+}
+
+static void warn_prestress(writer *w, const vsc_problem *problem)
+{
+  const vsc_prestress_def *def = &problem->scene->prestress;
+  if (def->loaded && !is_loaded(problem->model, def->time))
+    warn(w, "prestress: nothing loads the body at %g ms, so its shape at rest is the mesh: is prestress.time right?",
+         def->time);
+}
+
 static void warn_setting(writer *w, const vsc_problem *problem)
 {
   const vsc_model *model = problem->model;
@@ -202,10 +223,10 @@ static void warn_setting(writer *w, const vsc_problem *problem)
       model->solve.kind != VSC_SOLVE_EQUILIBRIUM)
     warn(w, "supports: nothing is held, so the load will carry the body away");
   char ways[128];
-  if (model->solve.kind == VSC_SOLVE_EQUILIBRIUM && vsc_free_motions(model, ways, sizeof ways) > 0)
-    warn(w, "solve: equilibrium: the body is free to %s, so forces that push it there never balance: hold it by "
-            "supports or robin",
-         ways);
+  const bool rests = model->solve.kind == VSC_SOLVE_EQUILIBRIUM;
+  if ((rests || problem->scene->prestress.loaded) && vsc_free_motions(model, ways, sizeof ways) > 0)
+    warn(w, "%s: the body is free to %s, so forces that push it there never balance: hold it by supports or robin",
+         rests ? "solve: equilibrium" : "prestress", ways);
   bool pushed = vsc_supports_move(model);
   for (size_t o = 0; o < model->obstacle_count; o++)
     pushed |= vsc_norm(model->obstacles[o].motion) > 0;
@@ -227,6 +248,7 @@ int vsc_check_warnings(const vsc_problem *problem, FILE *stream, const char *pre
   warn_layers(&w, problem);
   warn_fibers(&w, problem);
   warn_vessels(&w, problem);
+  warn_prestress(&w, problem);
   warn_setting(&w, problem);
   return w.count;
 }

@@ -104,18 +104,19 @@ static void put_kept(const vsc_model *model, const vsc_state *state, vsc_watch *
   }
 }
 
-// Displacement and position of each observed point, sum_i N_i (x_i - X_i) and sum_i N_i x_i.
+// Displacement from the mesh and position of each observed point, sum_i N_i (x_i - X_i) and sum_i N_i x_i.
 static void put_points(const vsc_problem *problem, const vsc_state *state, vsc_watch *watch)
 {
   const vsc_output_def *output = &problem->scene->output;
   for (size_t p = 0; p < output->point_count; p++) {
     const vsc_place *place = &problem->points[p];
+    const uint32_t *corner = vsc_mesh_corners(problem->mesh, place->element);
     double moved[3] = {0}, now[3] = {0};
     for (int i = 0; i < vsc_mesh_kind(problem->mesh, place->element)->corners; i++) {
       const size_t node = 4 * (size_t)watch->point_nodes[p][i];
       for (size_t a = 0; a < 3; a++) {
         now[a] += place->N[i] * state->x[node + a];
-        moved[a] += place->N[i] * (state->x[node + a] - problem->model->rest[node + a]);
+        moved[a] += place->N[i] * (state->x[node + a] - problem->mesh->nodes[3 * (size_t)corner[i] + a]);
       }
     }
     char name[VSC_NAME + 16];

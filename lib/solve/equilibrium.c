@@ -45,6 +45,7 @@ vsc_status vsc_equilibrium_start(const vsc_model *model, vsc_state *state, vsc_e
   if (status != VSC_OK) return status;
   state->solver = newton;
   state->release_solver = release;
+  if (state->loaded) vsc_moving_begin_loaded(model, state);
   return VSC_OK;
 }
 
@@ -96,7 +97,7 @@ vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double u
                               vsc_error *error)
 {
   vsc_newton *newton = state->solver;
-  const double start = state->time, way = until - start, load0 = state->steps > 0 ? 1 : 0;
+  const double start = state->time, way = until - start, load0 = state->steps > 0 || state->loaded ? 1 : 0;
   double *x = state->scratch.trial;
   double done = 0, increment = 1;
   state->scratch.load = 1;
@@ -126,7 +127,8 @@ vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double u
       continue;
     }
     increment = (next - done) * SHORTER;
-    if (status != VSC_NUMERICAL || increment < SHORTEST) return status;
+    const bool same = way == 0 && load0 == 1;  // shorter is no other problem
+    if (status != VSC_NUMERICAL || increment < SHORTEST || same) return status;
   }
   state->steps++;
   return VSC_OK;

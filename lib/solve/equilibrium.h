@@ -7,8 +7,9 @@
 #include "mech/state.h"
 #include "solve/newton.h"
 
-// Prepares a new state: nothing is loaded at time 0, whatever the curves say then; the loads come up
-// on the way to the first time that is asked for. VSC_INPUT where the model has no tangent.
+// Prepares a new state: nothing is loaded at its time, whatever the curves say then, and the loads come up
+// on the way to the first time that is asked for; state->loaded: they are borne already. VSC_INPUT where the
+// model has no tangent.
 vsc_status vsc_equilibrium_start(const vsc_model *model, vsc_state *state, vsc_error *error);
 
 // The equilibrium at `until` (ms), found from that at state->time in increments of the way between

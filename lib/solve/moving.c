@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/moving.h"
 
+#include "mech/force.h"
+
 // dc/dt at `time` from values dt apart; of second order, and without looking behind the table of a curve
 // that ends with the run.
 static double rate_of(const vsc_model *model, const vsc_curve *curve, double time, double dt)
@@ -34,6 +36,13 @@ void vsc_moving_start(const vsc_model *model, vsc_state *state)
                              .row_time = state->time};
     add_forces(&model->moved[s], state->force, sums->force);
   }
+}
+
+void vsc_moving_begin_loaded(const vsc_model *model, vsc_state *state)
+{
+  if (model->moved_count == 0) return;
+  vsc_force(model, state->x, NULL, state->time, &state->scratch, state->force);
+  vsc_moving_start(model, state);
 }
 
 void vsc_moving_place(const vsc_model *model, vsc_state *state, double dt)

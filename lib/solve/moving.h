@@ -9,6 +9,9 @@
 // nodes at rest.
 void vsc_moving_start(const vsc_model *model, vsc_state *state);
 
+// The same for equilibria that begin under load: the forces are those at the state's positions and time.
+void vsc_moving_begin_loaded(const vsc_model *model, vsc_state *state);
+
 // To be called when the positions have drifted to state->time in a step of dt (ms): puts the nodes to
 // rest + motion . c(t) and gives them the velocity of the middle of the step that takes them there,
 //   v = motion . (c(t) - c(t - dt)) / dt,

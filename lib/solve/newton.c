@@ -173,10 +173,13 @@ static vsc_status fail(const vsc_newton *newton, vsc_error *error, double time, 
   for (size_t i = 0; i < 4 * model->node_count; i++) out[i] = model->inverse_mass[i] != 0 ? newton->r[i] : 0;
   const size_t worst = vsc_largest_node(model, out);
   for (size_t i = 4 * worst; i < 4 * worst + 3; i++) size += out[i] * out[i];
-  char node[VSC_NODE_TEXT];
+  char node[VSC_NODE_TEXT], ways[100], loose[200] = "";
+  if (vsc_free_motions(model, ways, sizeof ways) > 0)
+    snprintf(loose, sizeof loose,
+             "; nothing keeps the body from moving as a whole, it is free to %s: hold it by supports or robin", ways);
   return vsc_fail(error, VSC_NUMERICAL,
-                  "at %.6g ms no equilibrium was found: %s; furthest out of balance, by %.2g mN, is %s; take a smaller "
-                  "load or a better mesh there, or solve: explicit", time, why, sqrt(size),
+                  "at %.6g ms no equilibrium was found: %s%s; furthest out of balance, by %.2g mN, is %s; take a smaller "
+                  "load or a better mesh there, or solve: explicit", time, why, loose, sqrt(size),
                   vsc_name_node(model, worst, node, sizeof node));
 }
 
@@ -237,12 +240,9 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
     }
   }
   newton->failures++;
-  char why[300], ways[100];
+  char why[100];
   const double now = newton->rows[newton->row_count - 1].residual;
-  const int length = snprintf(why, sizeof why, "the residual is %.2g of the forces after %d iterations, not below %.2g",
-                              now, *iterations, tolerance);
-  if (vsc_free_motions(model, ways, sizeof ways) > 0)
-    snprintf(why + length, sizeof why - (size_t)length,
-             "; nothing keeps the body from moving as a whole, it is free to %s: hold it by supports or robin", ways);
+  snprintf(why, sizeof why, "the residual is %.2g of the forces after %d iterations, not below %.2g", now, *iterations,
+           tolerance);
   return fail(newton, error, time, why);
 }

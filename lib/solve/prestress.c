@@ -16,6 +16,7 @@ typedef struct search {
   double *rest, *x;          // the best rest shape so far and its loaded shape
   double *try_rest, *try_x;  // node_count x 4
   vsc_prestress_row best;
+  vsc_error reason;  // why the last try has no loaded shape
 } search;
 
 // A number that is no number counts as infinitely far.
@@ -46,8 +47,8 @@ static vsc_status try_shape(search *s, int iteration, double relaxation, bool *n
   const vsc_prestress *problem = s->problem;
   vsc_prestress_row row = {.iteration = iteration, .relaxation = relaxation,
                            .largest = INFINITY, .mean = INFINITY};
-  const vsc_status status = problem->load(problem->context, s->try_rest, s->try_x, error);
-  if (status != VSC_OK && status != VSC_NUMERICAL) return status;
+  const vsc_status status = problem->load(problem->context, s->try_rest, s->try_x, &s->reason);
+  if (status != VSC_OK && status != VSC_NUMERICAL) return vsc_fail(error, status, "%s", s->reason.text);
   if (status == VSC_OK) measure(problem, s->try_x, &row);
   *nearer = row.mean < s->best.mean;
   if (*nearer) {
@@ -70,8 +71,8 @@ static vsc_status iterate(search *s, vsc_error *error)
   if (status != VSC_OK) return status;
   if (!nearer)
     return vsc_fail(error, VSC_NUMERICAL,
-                    "prestress: the shape that is given does not bear the loads as a rest shape; take "
-                    "smaller loads or stiffer tissue");
+                    "prestress: the shape that is given does not bear the loads as a rest shape; take smaller loads or "
+                    "stiffer tissue: %s", s->reason.text);
   for (int k = 1; k <= problem->most && s->best.largest > problem->tolerance; k++) {
     for (size_t i = 0; i < count; i++)
       s->try_rest[i] = s->rest[i] + relaxation * (problem->target[i] - s->x[i]);
@@ -87,7 +88,7 @@ static vsc_status iterate(search *s, vsc_error *error)
                   s->best.largest, s->best.mean, problem->tolerance);
 }
 
-vsc_status vsc_prestress_find(const vsc_prestress *problem, double *rest, vsc_error *error)
+vsc_status vsc_prestress_find(const vsc_prestress *problem, double *rest, double *x, vsc_error *error)
 {
   const size_t count = 4 * problem->node_count;
   search s = {.problem = problem, .best = {.largest = INFINITY, .mean = INFINITY}};
@@ -98,6 +99,7 @@ vsc_status vsc_prestress_find(const vsc_prestress *problem, double *rest, vsc_er
   else
     status = vsc_fail_memory(error, "prestress");
   if (status == VSC_OK) memcpy(rest, s.rest, count * sizeof *rest);
+  if (status == VSC_OK && x != NULL) memcpy(x, s.x, count * sizeof *x);
   vsc_free(s.rest);
   vsc_free(s.x);
   vsc_free(s.try_rest);

@@ -34,9 +34,9 @@ typedef struct vsc_prestress {
   void (*watch)(void *context, const vsc_prestress_row *row);
 } vsc_prestress;
 
-// Fills rest (node_count x 4) with the shape that `problem` asks for. VSC_NUMERICAL, with how far it is
-// off, when it does not come within the tolerance; VSC_SYSTEM when memory is short; and what `load` fails
-// with.
-vsc_status vsc_prestress_find(const vsc_prestress *problem, double *rest, vsc_error *error);
+// Fills rest (node_count x 4) with the shape that `problem` asks for, and x (likewise; may be NULL) with its loaded
+// shape. VSC_NUMERICAL, with how far it is off, when it does not come within the tolerance, or with the reason
+// where the target itself bears no loads; VSC_SYSTEM when memory is short; and what `load` fails with.
+vsc_status vsc_prestress_find(const vsc_prestress *problem, double *rest, double *x, vsc_error *error);
 
 #endif

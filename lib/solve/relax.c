@@ -45,6 +45,7 @@ vsc_status vsc_relax_start(const vsc_model *model, vsc_state *state, vsc_error *
   r->model.inverse_mass = r->inverse_mass;
   state->solver = r;
   state->release_solver = release;
+  if (state->loaded) vsc_moving_begin_loaded(model, state);
   return VSC_OK;
 }
 
@@ -91,7 +92,7 @@ static void step(const relaxer *r, vsc_state *state, double time, double h, doub
 vsc_status vsc_relax_to(const vsc_model *model, vsc_state *state, double until, vsc_error *error)
 {
   relaxer *r = state->solver;
-  const ramp loads = {state->time, until - state->time, state->steps > 0 ? 1 : 0};
+  const ramp loads = {state->time, until - state->time, state->steps > 0 || state->loaded ? 1 : 0};
   const double tolerance = model->solve.tolerance;
   double scale = 0, damping = 0;
   memset(state->v, 0, 4 * model->node_count * sizeof *state->v);
