@@ -66,6 +66,8 @@ double vsc_order_slope(size_t count, const double *h, const double *e)
     y[used++] = log(e[k]);
   }
   if (used < 2) return NAN;
+  // GSL divides by the points less 2 for a variance
+  if (used == 2) return (y[1] - y[0]) / (x[1] - x[0]);
   double start, slope, c00, c01, c11, sum;
   gsl_fit_linear(x, 1, y, 1, used, &start, &slope, &c00, &c01, &c11, &sum);
   return slope;
