@@ -7,6 +7,7 @@
 
 #include "close.h"
 #include "random.h"
+#include "trap.h"
 
 // The C library's own error is half a unit in the last place or little more: 1.2e-16.
 #define ERROR 2e-15
@@ -41,9 +42,13 @@ static void exponentials_are_those_of_the_library(void **state)
 static void exponentials_end_well(void **state)
 {
   (void)state;
+  trap_off();
   const vsc_wide y = vsc_wide_exp((vsc_wide){0, 1000, -1000, INFINITY});
+  trap_on();
   assert_true(y[0] == 1 && y[1] == INFINITY && y[2] == 0 && y[3] == INFINITY);
+  trap_off();
   const vsc_wide z = vsc_wide_exp((vsc_wide){-INFINITY, NAN, 709.75, 709.8});
+  trap_on();
   assert_true(z[0] == 0 && isnan(z[1]) && isfinite(z[2]) && z[3] == INFINITY);
   // below 2^-1022 numbers have fewer bits: half of the last is the error
   const vsc_wide tiny = vsc_wide_exp((vsc_wide){-708.5, -720, -744, -745.5});
@@ -71,7 +76,9 @@ static void logarithms_are_those_of_the_library(void **state)
 static void logarithms_end_well(void **state)
 {
   (void)state;
+  trap_off();
   const vsc_wide y = vsc_wide_log((vsc_wide){0, -1, INFINITY, NAN});
+  trap_on();
   assert_true(y[0] == -INFINITY && isnan(y[1]) && y[2] == INFINITY && isnan(y[3]));
 }
 

@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "fibers/sample.h"
 #include "tools/shapes.h"
+#include "trap.h"
 
 static vsc_mesh *slab(void)
 {
@@ -80,6 +81,7 @@ static void broken_maps_are_refused(void **state)
   vsc_copy_name(map.weight, "weight");
   double *azimuth = image->data.items[0].values, *mask = image->data.items[2].values;
   double *weight = image->data.items[3].values;
+  trap_off();  // until no number of the map is lost
   azimuth[12] = NAN;
   refuse(mesh, image, &map, "(1, 1, 0)");
   mask[12] = NAN;
@@ -91,6 +93,7 @@ static void broken_maps_are_refused(void **state)
   weight[13] = 0;
   azimuth[13] = NAN;
   accept(mesh, image, &map);
+  trap_on();
   image->origin[0] += 1000;
   refuse(mesh, image, &map, "units");
   image->origin[0] -= 1000;
