@@ -44,16 +44,14 @@ static void exponentials_end_well(void **state)
   (void)state;
   trap_off();
   const vsc_wide y = vsc_wide_exp((vsc_wide){0, 1000, -1000, INFINITY});
-  trap_on();
   assert_true(y[0] == 1 && y[1] == INFINITY && y[2] == 0 && y[3] == INFINITY);
-  trap_off();
   const vsc_wide z = vsc_wide_exp((vsc_wide){-INFINITY, NAN, 709.75, 709.8});
-  trap_on();
   assert_true(z[0] == 0 && isnan(z[1]) && isfinite(z[2]) && z[3] == INFINITY);
   // below 2^-1022 numbers have fewer bits: half of the last is the error
   const vsc_wide tiny = vsc_wide_exp((vsc_wide){-708.5, -720, -744, -745.5});
   for (int l = 0; l < 3; l++) assert_close(tiny[l], exp(l == 0 ? -708.5 : l == 1 ? -720 : -744), 0, 0x1p-1073);
   assert_true(tiny[2] > 0 && tiny[3] == 0);
+  trap_on();
 }
 
 static void logarithms_are_those_of_the_library(void **state)
@@ -78,8 +76,8 @@ static void logarithms_end_well(void **state)
   (void)state;
   trap_off();
   const vsc_wide y = vsc_wide_log((vsc_wide){0, -1, INFINITY, NAN});
-  trap_on();
   assert_true(y[0] == -INFINITY && isnan(y[1]) && y[2] == INFINITY && isnan(y[3]));
+  trap_on();
 }
 
 int main(void)
