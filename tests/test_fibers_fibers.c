@@ -13,6 +13,7 @@
 #include "fibers/fibers.h"
 #include "io/vtk.h"
 #include "tools/shapes.h"
+#include "trap.h"
 
 static const double degree = M_PI / 180;
 
@@ -78,7 +79,9 @@ static void one_direction(void **state)
   vsc_fiber_def definition = from(VSC_FIBER_CONSTANT);
   refuse(mesh, &definition, "(0, 0, 0)");
   definition.direction[0] = NAN;
+  trap_off();
   refuse(mesh, &definition, "nan");
+  trap_on();
   const double direction[3] = {0, 3, 4}, sheet[3] = {5, 1, 0};
   memcpy(definition.direction, direction, sizeof direction);
   memcpy(definition.sheet_direction, sheet, sizeof sheet);
@@ -193,7 +196,9 @@ static void arrays_of_the_mesh(void **state)
   sheets[12 + 1] = 0;                      // no sheet
   sheets[15] = INFINITY;                   // no sheet
   sheets[18 + 1] = 0, sheets[18 + 2] = 1;  // along the fibre
+  trap_off();
   axes = make(mesh, &definition, &report);
+  trap_on();
   assert_false(report.constant);
   assert_int_equal(report.invalid, 2);
   assert_int_equal(report.passive, 2);
@@ -203,7 +208,9 @@ static void arrays_of_the_mesh(void **state)
   assert_int_equal(axes->known[1] + axes->known[2], 0);
   vsc_axes_free(axes);
   definition.fill = true;
+  trap_off();
   axes = make(mesh, &definition, &report);
+  trap_on();
   assert_int_equal(report.filled, 2);
   assert_int_equal(report.passive, 0);
   assert_int_equal(axes->known[1] + axes->known[2], 2);

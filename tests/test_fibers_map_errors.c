@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "fibers/sample.h"
 #include "tools/shapes.h"
+#include "trap.h"
 
 static vsc_mesh *slab(void)
 {
@@ -80,6 +81,7 @@ static void broken_maps_are_refused(void **state)
   vsc_copy_name(map.weight, "weight");
   double *azimuth = image->data.items[0].values, *mask = image->data.items[2].values;
   double *weight = image->data.items[3].values;
+  trap_off();
   azimuth[12] = NAN;
   refuse(mesh, image, &map, "(1, 1, 0)");
   mask[12] = NAN;
@@ -104,6 +106,7 @@ static void broken_maps_are_refused(void **state)
   refuse(mesh, image, &map, "none of");
   image->data.items[1].tuples--;
   refuse(mesh, image, &map, "elevation");
+  trap_on();
   vsc_image_free(image);
   vsc_mesh_free(mesh);
 }

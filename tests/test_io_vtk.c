@@ -10,6 +10,7 @@
 #include "io/vtk.h"
 #include "mesh/surface.h"
 #include "scratch.h"
+#include "trap.h"
 #include "write_tets.h"
 
 static vsc_mesh *read_mesh(const char *path, double unit)
@@ -284,8 +285,10 @@ static void infinite_values_are_read(void **state)
   const double values[4] = {1, INFINITY, NAN, -INFINITY};
   const uint32_t tet[4] = {0, 1, 2, 3};
   const vsc_vtk_array array = {"a", 1, values, VSC_ON_NODES, false};
+  trap_off();  // VTK compares NaN for their range
   assert_int_equal(write_tets(scratch("inf.vtu"), 4, nodes, 1, tet, 0, NULL, 1, &array,
                                       true, NULL), VSC_OK);
+  trap_on();
   size_t bytes;
   char *text = scratch_load(scratch("inf.vtu"), &bytes);
   assert_null(strstr(text, "InformationKey"));

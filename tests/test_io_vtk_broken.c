@@ -10,6 +10,7 @@
 #include "io/vtk.h"
 #include "write_tets.h"
 #include "scratch.h"
+#include "trap.h"
 
 // VTK's reader of legacy files loses memory when a file breaks off.
 const char *__lsan_default_suppressions(void);
@@ -180,14 +181,18 @@ static void geometry_that_means_nothing(void **state)
 {
   (void)state;
   assert_no_mesh(write_parts((parts){.points = "0 0 0 1 0 0 0 1 0 0 0 1 1 nan 1"}), "");
+  trap_off();  // the volume overflows
   assert_no_mesh(write_parts((parts){.points = "0 0 0 1 0 0 0 1 0 0 0 1 1e200 1 1"}), "cells 1");
+  trap_on();
   assert_no_mesh(write_parts((parts){.points = "0 0 0 1 0 0 0 1 0 0 0 0 1 1 1"}), "degenerate");
   assert_no_mesh(write_parts((parts){.points = "0 0 0 1 0 0 0 1 0 1 1 0 1 1 1"}), "cells 0");
   assert_no_mesh(write_parts((parts){.connectivity = "0 1 2 2 1 2 3 4"}), "same point twice");
   vsc_mesh *mesh = NULL;
-  assert_int_equal(vsc_vtk_read_mesh(write_parts((parts){0}), 1e308 * 10, &mesh, NULL), VSC_INPUT);
   assert_int_equal(vsc_vtk_read_mesh(write_parts((parts){0}), 0, &mesh, NULL), VSC_INPUT);
+  trap_off();
+  assert_int_equal(vsc_vtk_read_mesh(write_parts((parts){0}), INFINITY, &mesh, NULL), VSC_INPUT);
   assert_int_equal(vsc_vtk_read_mesh(write_parts((parts){0}), NAN, &mesh, NULL), VSC_INPUT);
+  trap_on();
 }
 
 // Not-a-number points in binary, where VTK cannot stumble over the text.
@@ -200,9 +205,11 @@ static void points_that_are_not_numbers(void **state)
   for (int i = 0; i < 3; i++) {
     mesh->nodes[3 * 5 + i] = odd[i];
     const char *path = scratch("nan.vtu");
+    trap_off();  // VTK compares NaN for their range
     assert_int_equal(write_tets(path, mesh->node_count, mesh->nodes, mesh->element_count,
                                         mesh->corners, 0, NULL, 0, NULL, true, NULL), VSC_OK);
     assert_no_mesh(path, "points 5");
+    trap_on();
     mesh->nodes[3 * 5 + i] = 1;
   }
   vsc_mesh_free(mesh);

@@ -3,6 +3,7 @@
 // written.
 #include "write_tets.h"
 #include "block_scene.h"
+#include "trap.h"
 #include "io/scene.h"
 #include "mesh/image.h"
 
@@ -206,7 +207,9 @@ static void test_bad_numbers(void **state)
                {0, 0, "no element has a fibre"}};
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     const broken bad = {"--set mesh.file=two.vtu", cases[k].part};
+    trap_off();  // VTK compares NaN for their range
     write_two(cases[k].first, cases[k].fiber);
+    trap_on();
     refused("block.yaml", &bad);
   }
   write_two(0, 1);  // and without a mistake it runs
@@ -269,7 +272,9 @@ static void test_maps(void **state)
   };
 #undef MAP
   write_map("map.vti", 30, 1, -2);
+  trap_off();
   write_map("nan.vti", NAN, 1, -2);
+  trap_on();
   write_map("bare.vti", 30, 0, -2);
   write_map("far.vti", 30, 1, 500);
   must(": >empty.vti; head -c 300 map.vti >cut.vti");

@@ -2,6 +2,7 @@
 // What `viscera check` says about a scene, and which warnings it has for which scenes.
 #include "write_tets.h"
 #include "block_scene.h"
+#include "trap.h"
 
 // The line of the last output that begins with `word`; valid until the next call.
 static const char *line_of(const char *word)
@@ -181,9 +182,11 @@ static void write_fibres(void)
       {"turning", 3, v[TURNING], VSC_ON_ELEMENTS, false},
       {"holes", 3, v[HOLES], VSC_ON_ELEMENTS, false},
       {"slanted", 3, v[SLANTED], VSC_ON_ELEMENTS, false}};
+  trap_off();  // VTK compares NaN for their range
   assert_int_equal(write_tets(in_folder("fibres.vtu"), mesh->node_count, mesh->nodes,
                                       mesh->element_count, mesh->corners, 0, NULL, 7, arrays, true, NULL),
                    VSC_OK);
+  trap_on();
   for (int k = 0; k < KINDS; k++) free(v[k]);
   vsc_mesh_free(mesh);
 }

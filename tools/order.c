@@ -44,7 +44,7 @@ vsc_order vsc_order_of(const double h[3], const double f[3])
 {
   vsc_order o = {VSC_TREND_CONVERGES, NAN, NAN, NAN};
   const double coarse = f[0] - f[1], fine = f[1] - f[2];
-  sizes s = {log(h[0] / h[1]), log(h[1] / h[2]), coarse / fine};
+  sizes s = {log(h[0] / h[1]), log(h[1] / h[2]), fine == 0 ? 0 : coarse / fine};
   if (fine == 0) o.trend = VSC_TREND_STANDS;
   else if (s.ratio < 0) o.trend = VSC_TREND_OSCILLATES;
   else if (s.ratio == 0 || !(misfit(1e-9, &s) < 0)) o.trend = VSC_TREND_DIVERGES;
@@ -61,11 +61,13 @@ double vsc_order_slope(size_t count, const double *h, const double *e)
   double x[MOST_ERRORS], y[MOST_ERRORS];
   size_t used = 0;
   for (size_t k = 0; k < count && used < MOST_ERRORS; k++) {
-    if (!(e[k] > 0) || !isfinite(e[k])) continue;
+    if (!isfinite(e[k]) || e[k] <= 0) continue;
     x[used] = log(h[k]);
     y[used++] = log(e[k]);
   }
   if (used < 2) return NAN;
+  // GSL divides by the points less 2 for a variance
+  if (used == 2) return (y[1] - y[0]) / (x[1] - x[0]);
   double start, slope, c00, c01, c11, sum;
   gsl_fit_linear(x, 1, y, 1, used, &start, &slope, &c00, &c01, &c11, &sum);
   return slope;

@@ -87,9 +87,9 @@ static vsc_status check_base(const vsc_lv_shape *lv, vsc_error *error)
 
 static vsc_status check_lv(const vsc_lv_shape *lv, vsc_error *error)
 {
-  const bool sizes = lv->endo_radius > 0 && lv->endo_length > 0 &&
-                     lv->epi_radius > lv->endo_radius && lv->epi_length > lv->endo_length &&
-                     isfinite(lv->epi_radius) && isfinite(lv->epi_length);
+  const bool sizes = isfinite(lv->epi_radius) && isfinite(lv->epi_length) && lv->endo_radius > 0 &&
+                     lv->endo_length > 0 && lv->epi_radius > lv->endo_radius &&
+                     lv->epi_length > lv->endo_length;
   if (!sizes)
     return vsc_fail(error, VSC_INPUT,
                     "ventricle: endocardial radius %g and length %g mm must be above 0 and "

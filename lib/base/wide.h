@@ -41,6 +41,13 @@ VSC_INLINE vsc_wide vsc_where(vsc_wide_mask mask, vsc_wide a)
   return (vsc_wide)(mask & (vsc_wide_mask)a);
 }
 
+// 1/a where `a` is above `least`, at least 0, and 0 elsewhere, where nothing is divided.
+VSC_INLINE vsc_wide vsc_wide_inverse(vsc_wide a, double least)
+{
+  const vsc_wide_mask some = a > least;
+  return vsc_where(some, 1.0 / vsc_select(some, a, vsc_splat(1)));
+}
+
 // Rows become columns: four points (x, y, z, w) in, their x, y, z, w out; and back.
 VSC_INLINE void vsc_transpose(vsc_wide *a, vsc_wide *b, vsc_wide *c, vsc_wide *d)
 {

@@ -47,7 +47,7 @@ VSC_INLINE vsc_wide vsc_wide_log(vsc_wide x)
 {
   // numbers too small for a full mantissa are raised by 2^54
   const vsc_wide_mask tiny = x < 0x1p-1022;
-  const vsc_wide raised = vsc_select(tiny, x * 0x1p54, x);
+  const vsc_wide raised = x * vsc_select(tiny, vsc_splat(0x1p54), vsc_splat(1));
   const vsc_wide_bits bits = (vsc_wide_bits)raised;
   // x = 2^n m, m from sqrt(1/2) to sqrt 2
   const vsc_wide_bits power = ((bits >> 52) & 0x7ff) | (vsc_wide_bits)vsc_splat(0x1p52);

@@ -297,7 +297,7 @@ vsc_status place_image(const char *file, vtkImageData *grid, bool on_cells, doub
     double step = grid->GetSpacing()[axis] * length * unit;
     if (flat && step == 0) step = unit;
     for (int row = 0; row < 3; row++)
-      image->direction[3 * row + axis] = std::copysign(1, step) * column[row] / length;
+      image->direction[3 * row + axis] = length > 0 ? std::copysign(1, step) * column[row] / length : 0;
     image->spacing[axis] = std::fabs(step);
     image->origin[axis] = grid->GetOrigin()[axis] * unit;
     first[axis] = ends[0] + (on_cells && !flat ? 0.5 : 0);

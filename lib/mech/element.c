@@ -14,7 +14,7 @@ static void paper_law(const vsc_model *model, const vsc_patch *patch, size_t k, 
   const vsc_wide *r = tets ? ((const vsc_chords *)data)->r : ((const vsc_hex_axes *)data)->r;
   const vsc_wide V =
       tets ? vsc_pack_frames(model, patch, k)->V : ((const vsc_hex_axes *)data)->volume;
-  const vsc_wide inverse = vsc_where(V > 0, 1.0 / vsc_select(V > 0, V, vsc_splat(1)));
+  const vsc_wide inverse = vsc_wide_inverse(V, 0);
   for (int a = 0; a < 3; a++) {
     law->springs.axial[a] = paper->axial[a] * r[a] * r[a] * inverse;
     law->springs.angular[a] = 0.5 * paper->angular[a] * (r[a] + r[(a + 1) % 3]) * inverse;

@@ -33,9 +33,7 @@ VSC_INLINE vsc_wide3 wide_zero(void)
 VSC_INLINE vsc_wide length_of(vsc_wide3 a, vsc_wide *inverse)
 {
   const vsc_wide length = vsc_wide_sqrt(vsc_wide_dot(a, a));
-  const vsc_wide shortest = vsc_splat(VSC_SHORTEST_AXIS);
-  const vsc_wide safe = vsc_select(length > shortest, length, shortest);
-  *inverse = vsc_where(length > shortest, 1.0 / safe);
+  *inverse = vsc_wide_inverse(length, VSC_SHORTEST_AXIS);
   return length;
 }
 

@@ -51,8 +51,7 @@ VSC_INLINE void add_products(vsc_wide weight, const vsc_wide T[6], const vsc_wid
 
 static void divide(vsc_wide by, pack_tensors *sum)
 {
-  const vsc_wide_mask some = by > 0;
-  const vsc_wide inverse = vsc_where(some, 1.0 / vsc_select(some, by, vsc_splat(1)));
+  const vsc_wide inverse = vsc_wide_inverse(by, 0);
   for (int i = 0; i < 6; i++) {
     sum->fiber[i] *= inverse;
     sum->global[i] *= inverse;
@@ -98,8 +97,7 @@ static void stress_on_frame(const vsc_law_input *in, const vsc_wide3 g[3], const
 static vsc_wide3 unit_of(vsc_wide3 a)
 {
   const vsc_wide length = vsc_wide_sqrt(vsc_wide_dot(a, a));
-  const vsc_wide_mask some = length > VSC_SHORTEST_AXIS;
-  return vsc_wide_scale(vsc_where(some, 1.0 / vsc_select(some, length, vsc_splat(1))), a);
+  return vsc_wide_scale(vsc_wide_inverse(length, VSC_SHORTEST_AXIS), a);
 }
 
 // The axes as seen in the deformed fibre frame: f along g_f, s in the plane of g_f and g_s, n across it.

@@ -140,7 +140,8 @@ static vsc_status check_elements(const vsc_mesh *mesh, const char *name, vsc_err
       continue;
     }
     const double edge = longest_edge(mesh, e);
-    const double relative = fabs(vsc_mesh_element_volume(mesh, e)) / edge / edge / edge;
+    const double volume = fabs(vsc_mesh_element_volume(mesh, e));
+    const double relative = edge > 0 ? volume / edge / edge / edge : 0;
     if (!(relative >= DEGENERATE)) blame_element(&flat, mesh, e);
   }
   const vsc_status status = refuse(&repeated, name, "the same point twice in",

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/order.h"
 
-#include <float.h>
 #include <stdlib.h>
 
 #include "base/mem.h"
@@ -50,9 +49,9 @@ static int compare_keys(const void *left, const void *right)
 
 static void bounding_box(size_t count, const double *points, double low[3], double *side)
 {
-  double high[3] = {-DBL_MAX, -DBL_MAX, -DBL_MAX};
-  for (int i = 0; i < 3; i++) low[i] = DBL_MAX;
-  for (size_t p = 0; p < count; p++)
+  double high[3];
+  for (int i = 0; i < 3; i++) low[i] = high[i] = count > 0 ? points[i] : 0;
+  for (size_t p = 1; p < count; p++)
     for (int i = 0; i < 3; i++) {
       const double x = points[3 * p + i];
       if (x < low[i]) low[i] = x;

@@ -155,8 +155,9 @@ static vsc_status check_corners(const vsc_mesh *mesh, const vsc_surface *surface
       longest = fmax(longest, vsc_norm(edge));
     }
     for (int i = 0; i < 3; i++) {
-      // to first order
-      const double level = level_of(curved, x[i], slope), off = fabs(level) / (2 * vsc_norm(slope));
+      // to first order; from the centre no direction leads off
+      const double level = level_of(curved, x[i], slope), steep = 2 * vsc_norm(slope);
+      const double off = steep > 0 ? fabs(level) / steep : INFINITY;
       if (off <= FAR * longest) continue;
       return vsc_fail(error, VSC_INPUT,
                       "mesh.curved: node %u of surface %s at (%g, %g, %g) mm lies %.2g mm off the "

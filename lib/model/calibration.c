@@ -54,7 +54,7 @@ static vsc_status check_positive(const char *what, const char *names, int width,
                                  const double value[3], vsc_error *error)
 {
   for (int i = 0; i < 3; i++)
-    if (!(value[i] > 0 && isfinite(value[i])))
+    if (!(isfinite(value[i]) && value[i] > 0))
       return vsc_fail(error, VSC_INPUT, "%s modulus %.*s, %g kPa: give a value above zero", what,
                       width, names + width * i, value[i]);
   return VSC_OK;

@@ -33,12 +33,12 @@ static inline void need(vsc_checker *c, bool fine, const char *key, double value
 static inline void need_positive(vsc_checker *c, const char *key, double value, const char *unit,
                           const char *remedy)
 {
-  need(c, value > 0 && isfinite(value), key, value, unit, remedy);
+  need(c, isfinite(value) && value > 0, key, value, unit, remedy);
 }
 
 static inline void need_not_negative(vsc_checker *c, const char *key, double value, const char *unit)
 {
-  need(c, value >= 0 && isfinite(value), key, value, unit, "give a value of zero or more");
+  need(c, isfinite(value) && value >= 0, key, value, unit, "give a value of zero or more");
 }
 
 static inline void need_finite(vsc_checker *c, const char *key, double value, const char *unit)

@@ -13,6 +13,12 @@ enum { INTERVALS_OF_PERIOD = 8192, DRIVEN_INTERVALS_OF_PERIOD = 65536, MOST_INTE
 // ms; of a curve without period, doubled for runs of more than 16 s, halved for those below 128 ms
 #define SPACING 0.015625
 
+// base^exponent; infinity, without overflow, where that is e^709.78 or more.
+static double power_of(double base, double exponent)
+{
+  return exponent * log(base) < 709.78 ? pow(base, exponent) : INFINITY;
+}
+
 static double analytic_value(const vsc_curve_def *d, double time)
 {
   const double t = time - d->start;
@@ -23,8 +29,8 @@ static double analytic_value(const vsc_curve_def *d, double time)
       return t > 0 && t < d->duration ? sin(M_PI * t / d->duration) : 0;
     case VSC_CURVE_DOUBLE_HILL: {
       if (t <= 0) return 0;
-      // g1/(1 + g1) as 1/(1 + 1/g1): powers may overflow
-      return 1 / (1 + pow(t / d->rise, -d->rise_power)) / (1 + pow(t / d->fall, d->fall_power));
+      // g1/(1 + g1) as 1/(1 + 1/g1): infinite powers then do no harm
+      return 1 / (1 + power_of(t / d->rise, -d->rise_power)) / (1 + power_of(t / d->fall, d->fall_power));
     }
     case VSC_CURVE_TANH_PAIR:
       return 0.25 * (1 + tanh(t / d->rise)) * (1 - tanh((t - d->duration) / d->fall));
@@ -44,8 +50,8 @@ static double hill_peak(const vsc_curve_def *d)
   double low = log(fmin(d->rise, d->fall)) - 100, high = log(fmax(d->rise, d->fall)) + 100;
   for (int k = 0; k < 100; k++) {
     const double middle = 0.5 * (low + high), t = exp(middle);
-    const double slope = d->rise_power / (1 + pow(t / d->rise, d->rise_power)) -
-                         d->fall_power / (1 + pow(t / d->fall, -d->fall_power));
+    const double slope = d->rise_power / (1 + power_of(t / d->rise, d->rise_power)) -
+                         d->fall_power / (1 + power_of(t / d->fall, -d->fall_power));
     if (slope > 0)
       low = middle;
     else

@@ -42,7 +42,7 @@ static void check_more_axes(vsc_checker *c, const vsc_material_def *material)
     const vsc_axis_def *axis = &material->axes[k];
     const double *d = axis->direction, length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     snprintf(key, sizeof key, "axes[%zu].direction", k);
-    need(c, length > 1e-6 && isfinite(length), key, length, "long", "give a vector that is not zero");
+    need(c, isfinite(length) && length > 1e-6, key, length, "long", "give a vector that is not zero");
     snprintf(key, sizeof key, "axes[%zu].modulus", k);
     need_not_negative(c, key, axis->modulus, "kPa");
     snprintf(key, sizeof key, "axes[%zu].damping", k);
@@ -65,7 +65,7 @@ static void check_coupling(vsc_checker *c, const vsc_material_def *m)
 {
   static const char *const keys[] = {"coupling.fs", "coupling.sn", "coupling.nf"};
   for (int a = 0; a < 3; a++) need_finite(c, keys[a], m->coupling[a], "kPa");
-  need(c, vsc_couplings_hold(m), keys[0], m->coupling[0], "kPa",
+  need(c, c->status != VSC_OK || vsc_couplings_hold(m), keys[0], m->coupling[0], "kPa",
        "with the other couplings some stretch costs no energy; give smaller couplings, or larger axial "
        "moduli");
 }

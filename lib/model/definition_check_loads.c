@@ -41,11 +41,11 @@ static void check_table(vsc_checker *c, const vsc_curve_def *curve)
 
 static void check_driver(vsc_checker *c, const vsc_curve_def *curve)
 {
-  need(c, curve->stop > curve->start && isfinite(curve->stop), "curve.stop", curve->stop, "ms",
+  need(c, isfinite(curve->stop) && curve->stop > curve->start, "curve.stop", curve->stop, "ms",
        "give a time after the start");
   need_positive(c, "curve.width", curve->width, "ms", "give a time above zero");
   need_positive(c, "curve.rate_up", curve->rate_up, "1/ms", "give a rate above zero");
-  need(c, curve->rate_down < 0 && isfinite(curve->rate_down), "curve.rate_down", curve->rate_down,
+  need(c, isfinite(curve->rate_down) && curve->rate_down < 0, "curve.rate_down", curve->rate_down,
        "1/ms", "give a rate below zero");
   need_not_negative(c, "curve.rate_pre", curve->rate_pre, "1/ms");
   need_not_negative(c, "curve.rate_mid", curve->rate_mid, "1/ms");

@@ -32,6 +32,9 @@
 // neighbour's other edges lie 6 + 2 i (across i, 3 + i) and 7 + 2 i (across 3 + i, i + 1).
 enum { VSC_BEND_NODES = 12, VSC_BEND_FOLDS = 9 };
 
+// Products of lengths below it count as 0: their inverse would overflow.
+#define VSC_LEAST_FOLD 1e-300
+
 // p, q, s, r of each fold.
 static const int vsc_bend_fold_nodes[VSC_BEND_FOLDS][4] = {
     {0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5},  {0, 3, 1, 6}, {3, 1, 0, 7},
@@ -52,12 +55,6 @@ typedef struct vsc_fold {
   vsc_wide s_l, r_l;
 } vsc_fold;
 
-// 1/a, or 0 where a is 0 (or its inverse overflows).
-VSC_INLINE vsc_wide vsc_wide_inverse(vsc_wide a)
-{
-  return vsc_where(a > 1e-300, 1.0 / a);
-}
-
 // The fold over the edge from p to q.
 VSC_INLINE vsc_fold vsc_fold_of(vsc_wide3 p, vsc_wide3 q, vsc_wide3 s, vsc_wide3 r)
 {
@@ -67,7 +64,7 @@ VSC_INLINE vsc_fold vsc_fold_of(vsc_wide3 p, vsc_wide3 q, vsc_wide3 s, vsc_wide3
   const vsc_wide3 n = vsc_wide_cross(edge, to_s), m = vsc_wide_cross(to_r, edge);
   const vsc_wide square = vsc_wide_dot(edge, edge), length = vsc_wide_sqrt(square);
   const vsc_wide nn = vsc_wide_dot(n, n), mm = vsc_wide_dot(m, m);
-  const vsc_wide both = vsc_wide_inverse(vsc_wide_sqrt(nn) * vsc_wide_sqrt(mm));
+  const vsc_wide both = vsc_wide_inverse(vsc_wide_sqrt(nn) * vsc_wide_sqrt(mm), VSC_LEAST_FOLD);
   const vsc_wide cosine = vsc_wide_dot(n, m) * both;
   const vsc_wide sine = vsc_wide_dot(n, to_r) * length * both;
   // the larger of 2 cos(theta/2) and 2 |sin(theta/2)|, from which the other follows without
@@ -78,9 +75,9 @@ VSC_INLINE vsc_fold vsc_fold_of(vsc_wide3 p, vsc_wide3 q, vsc_wide3 s, vsc_wide3
   const vsc_wide_mask left = sine < 0.0;
   fold.phi = vsc_select(cosine > 0.0, smaller, vsc_select(left, -larger, larger));
   fold.slope = 0.5 * vsc_select(cosine > 0.0, larger, vsc_select(left, -smaller, smaller));
-  fold.on_s = vsc_wide_scale(length * vsc_wide_inverse(nn), n);
-  fold.on_r = vsc_wide_scale(length * vsc_wide_inverse(mm), m);
-  const vsc_wide inverse = vsc_wide_inverse(square);
+  fold.on_s = vsc_wide_scale(length * vsc_wide_inverse(nn, VSC_LEAST_FOLD), n);
+  fold.on_r = vsc_wide_scale(length * vsc_wide_inverse(mm, VSC_LEAST_FOLD), m);
+  const vsc_wide inverse = vsc_wide_inverse(square, VSC_LEAST_FOLD);
   fold.s_l = vsc_wide_dot(to_s, edge) * inverse;
   fold.r_l = vsc_wide_dot(to_r, edge) * inverse;
   return fold;

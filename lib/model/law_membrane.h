@@ -30,12 +30,12 @@ VSC_INLINE vsc_sheet_axes vsc_sheet_axes_of(const vsc_wide3 g[2])
   for (int a = 0; a < 2; a++) {
     axes.g[a] = g[a];
     axes.length[a] = vsc_wide_sqrt(vsc_wide_dot(g[a], g[a]));
-    axes.inverse[a] = vsc_where(axes.length[a] > VSC_SHORTEST_AXIS, 1.0 / axes.length[a]);
+    axes.inverse[a] = vsc_wide_inverse(axes.length[a], VSC_SHORTEST_AXIS);
     axes.u[a] = vsc_wide_scale(axes.inverse[a], g[a]);
   }
   axes.normal = vsc_wide_cross(g[0], g[1]);
   axes.J = vsc_wide_sqrt(vsc_wide_dot(axes.normal, axes.normal));
-  axes.normal = vsc_wide_scale(vsc_where(axes.J > VSC_SHORTEST_AXIS, 1.0 / axes.J), axes.normal);
+  axes.normal = vsc_wide_scale(vsc_wide_inverse(axes.J, VSC_SHORTEST_AXIS), axes.normal);
   axes.c = vsc_wide_dot(axes.u[0], axes.u[1]);
   return axes;
 }

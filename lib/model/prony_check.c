@@ -13,7 +13,7 @@ static vsc_status check_branches(const vsc_material_def *material, size_t m, vsc
       return vsc_fail(error, VSC_INPUT,
                       "materials[%zu].prony[%zu].modulus: %g: give a part of the stress above 0", m, k,
                       branch->modulus);
-    if (!(branch->time > 0 && isfinite(branch->time)))
+    if (!(isfinite(branch->time) && branch->time > 0))
       return vsc_fail(error, VSC_INPUT,
                       "materials[%zu].prony[%zu].time: %g ms: give a time above zero", m, k,
                       branch->time);

@@ -7,6 +7,7 @@
 #include "mech/step_limit.h"
 #include "solve/explicit.h"
 #include "tissue_laws.h"
+#include "trap.h"
 
 typedef enum stress_kind { PLAIN, NODAL, SMOOTHED, QUADRATIC, HEXES, MIXED, STRESS_KINDS } stress_kind;
 
@@ -140,7 +141,9 @@ static double growth(stress_body *body, double dt, double count)
             &body->state->scratch, body->state->force);
   for (size_t i = 0; i < 4 * body->model->node_count; i++)
     body->state->a[i] = body->model->inverse_mass[i] * body->state->force[i];
+  trap_off();  // above the limit speeds may pass all numbers
   assert_int_equal(vsc_steps(body->model, body->state, dt, count, &error), VSC_OK);
+  trap_on();
   return largest_speed(body) / speed;
 }
 

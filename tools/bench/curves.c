@@ -36,7 +36,7 @@ double vsc_observed_order(size_t count, const double *h, const double *errors)
 {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (size_t k = 0; k < count; k++) {
-    if (!(errors[k] > 0)) continue;
+    if (isnan(errors[k]) || errors[k] <= 0) continue;
     const double a = log(h[k]), b = log(errors[k]);
     n++;
     x += a;
