@@ -87,32 +87,44 @@ static const double *node_vectors(const vsc_mesh *mesh, const char *name)
   return array != NULL && array->components == 3 ? array->values : NULL;
 }
 
-// Weights of an element's vertices: those of its corners N, of which the ones in the middle of edges are shared out.
-static void weigh_vertices(const vsc_cell_kind *kind, const double *N, double *weight)
+static void add(double part, const double v[3], double sum[3])
 {
-  for (int i = 0; i < kind->vertices; i++) weight[i] = N[i];
-  for (int k = 0; kind->corners > kind->vertices && k < kind->edge_count; k++)
-    for (int end = 0; end < 2; end++) weight[kind->edges[k][end]] += 0.5 * N[kind->vertices + k];
+  for (int a = 0; a < 3; a++) sum[a] += part * v[a];
 }
 
-// sum_i N_i v_i of vectors on an element's nodes: as they are, or those of the vertices turned to the side of the
-// first. Whether one of these points to the other side.
+// Whether v is the mean of a and b, as raising the order of a mesh makes it.
+static bool is_mean(const double v[3], const double a[3], const double b[3])
+{
+  double off = 0;
+  for (int k = 0; k < 3; k++) off = fmax(off, fabs(v[k] - 0.5 * (a[k] + b[k])));
+  return off <= 1e-12 * (vsc_norm(a) + vsc_norm(b));
+}
+
+// sum_i N_i v_i of vectors on an element's nodes, as they are; or, of axes, all turned to the side of the first. In the
+// middle of an edge the mean of its ends stands for the mean of these as turned. Whether some vertex points
+// to the other side than the first.
 static bool interpolate(const vsc_mesh *mesh, size_t element, const double *N, const double *vectors, bool sense_kept,
                         double v[3])
 {
   const vsc_cell_kind *kind = vsc_mesh_kind(mesh, element);
   const uint32_t *corner = vsc_mesh_corners(mesh, element);
-  const double *first = vectors + 3 * (size_t)corner[0];
-  double of_vertices[VSC_MOST_CORNERS];
+  const double *own[VSC_MOST_CORNERS];
+  double side[VSC_MOST_CORNERS];
   bool opposed = false;
-  weigh_vertices(kind, N, of_vertices);
   for (int a = 0; a < 3; a++) v[a] = 0;
-  for (int i = 0; i < (sense_kept ? kind->corners : kind->vertices); i++) {
-    const double *own = vectors + 3 * (size_t)corner[i];
-    const bool against = i < kind->vertices && vsc_dot(own, first) < 0;
-    const double part = sense_kept ? N[i] : against ? -of_vertices[i] : of_vertices[i];
-    for (int a = 0; a < 3; a++) v[a] += part * own[a];
-    opposed |= against;
+  for (int i = 0; i < kind->corners; i++) {
+    own[i] = vectors + 3 * (size_t)corner[i];
+    side[i] = vsc_dot(own[i], own[0]) < 0 ? -1 : 1;
+    opposed |= i < kind->vertices && side[i] < 0;
+  }
+  for (int i = 0; i < kind->corners; i++) {
+    const int *ends = i < kind->vertices ? NULL : kind->edges[i - kind->vertices];
+    if (sense_kept)
+      add(N[i], own[i], v);
+    else if (ends == NULL || side[ends[0]] == side[ends[1]] || !is_mean(own[i], own[ends[0]], own[ends[1]]))
+      add(side[i] * N[i], own[i], v);
+    else
+      for (int k = 0; k < 2; k++) add(0.5 * side[ends[k]] * N[i], own[ends[k]], v);
   }
   return opposed;
 }
