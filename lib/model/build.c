@@ -135,15 +135,17 @@ static void copy_moduli(const vsc_material_def *def, vsc_volume_kind volume, vsc
   memcpy(material->damping, def->damping, sizeof material->damping);
 }
 
-// Without a stabilisation of its own a tissue law takes its shear modulus: frames that share a volume
-// collapse under large loads otherwise.
+// Without a stabilisation of its own a tissue law takes its shear modulus out of the volume modulus, half of that at
+// most: frames that share a volume collapse under large loads otherwise.
 static void complete_stabilization(const vsc_definition *definition, const vsc_model *model,
                                    vsc_material *material)
 {
   if (!vsc_law_is_of_strain(material->law) || material->law == VSC_LAW_SPRINGS ||
       definition->volume != VSC_VOLUME_NODAL || material->stabilization > 0)
     return;
-  material->stabilization = material->element_modulus = vsc_material_shear(model, material);
+  const double own = fmin(vsc_material_shear(model, material), 0.5 * material->volume_modulus);
+  material->stabilization = material->element_modulus = own;
+  material->volume_modulus -= own;
 }
 
 static bool has_coupling(const vsc_material *material)

@@ -189,7 +189,7 @@ typedef struct vsc_material_def {
                           // HOLZAPFEL_OGDEN the ground alone; default false: on all of it
   double volume_modulus;  // K, kPa, of U(J) = K/4 (J^2 - 1 - 2 ln J); default 0
   double stabilization;   // Ks, kPa: the same energy of each frame beside a shared volume; 0: law SPRINGS
-                          // has none, other laws take their shear modulus
+                          // has none, other laws take their shear modulus (K/2 at most) out of K
   vsc_active_def active;
   vsc_law law;
   vsc_paper_def paper;          // law PAPER; axial, angular, damping and volume_modulus are not used

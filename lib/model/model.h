@@ -115,7 +115,7 @@ typedef struct vsc_material {
   double damping[3];       // eta_f, eta_s, eta_n, kPa ms
   double viscosity;        // eta of S = eta dE/dt, kPa ms
   bool damped;             // whether anything in it resists velocity, whatever its law
-  double volume_modulus;   // K, kPa
+  double volume_modulus;   // K, kPa; of the shared volume where there is one
   double stabilization;    // Ks, kPa: of each frame's own U(J) beside the shared volume of its nodes
                            // or its element; 0 when elements are alone, so that tets and other
                            // kinds have one bulk modulus

@@ -168,7 +168,7 @@ static void say_tissue(const vsc_model *model, const vsc_material *m, const vsc_
             constants[k].unit[0] ? " " : "", constants[k].unit);
   fprintf(out,
           "; shear modulus at rest up to %.4g kPa; K %g; own K of a frame %g kPa; viscosity %g kPa ms\n",
-          vsc_material_shear(model, m), m->volume_modulus, m->element_modulus, m->viscosity);
+          vsc_material_shear(model, m), def->volume_modulus, m->element_modulus, m->viscosity);
 }
 
 static void say_law(const vsc_model *model, const vsc_material *m, const vsc_material_def *def,

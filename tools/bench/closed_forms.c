@@ -61,7 +61,7 @@ double vsc_cylinder_move(double nu)
 
 double vsc_cook_rise(double nu)
 {
-  static const double rises[][2] = {{0.3, 7.462}, {0.4, 7.391}, {0.49, 7.026}, {0.499, 6.966}, {0.4999, 6.9614}};
+  static const double rises[][2] = {{0.3, 7.952}, {0.4, 7.552}, {0.49, 7.028}, {0.499, 6.965}, {0.4999, 6.9614}};
   for (size_t k = 0; k < sizeof rises / sizeof rises[0]; k++)
     if (nu == rises[k][0]) return rises[k][1];
   return NAN;
