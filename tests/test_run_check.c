@@ -72,6 +72,22 @@ static void test_the_shipped_beat(void **state)
   assert_int_equal(warnings(), 0);
 }
 
+// Wedges lock in the plane of their triangles when they keep their volume; with a modulus 20 times the shear they do not.
+static void test_wedges_that_lock(void **state)
+{
+  (void)state;
+  must("$V generate block --cells 2,2,2 --element wedge -o wedges.vtu");
+  save_text("wedges.yaml", "mesh: {file: wedges.vtu, unit: mm}\n"
+                           "node_sets: [{name: foot, node_array: z0, value: 1}]\n"
+                           "materials: [{name: rubber, law: neo_hookean, neo_hookean: {shear: 5 kPa}, volume_modulus: 500 kPa}]\n"
+                           "supports: [{set: foot, held: [x, y, z]}]\n"
+                           "gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]\ntime: {end: 1 s}\n");
+  must("$V check wedges.yaml -t 1");
+  assert_non_null(strstr(said, "times the shear modulus, and wedges"));
+  must("$V check wedges.yaml -t 1 --set 'materials[0].volume_modulus=90 kPa'");
+  assert_null(strstr(said, "and wedges"));
+}
+
 // The end of the block is 10 x 10 mm.
 static void test_beds_and_moved_supports(void **state)
 {
@@ -241,6 +257,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_the_shipped_beat),
+      cmocka_unit_test(test_wedges_that_lock),
       cmocka_unit_test(test_beds_and_moved_supports),
       cmocka_unit_test(test_step_and_cost_are_those_of_the_run),
       cmocka_unit_test(test_given_step),

@@ -41,10 +41,10 @@ static void warn_paper(writer *w, const vsc_material *material)
        material->name);
 }
 
-static bool has_linear_tets(const vsc_model *model)
+static bool has_family(const vsc_model *model, vsc_family family)
 {
   for (size_t p = 0; p < model->patch_count; p++)
-    if (model->patches[p].family == VSC_TETS) return true;
+    if (model->patches[p].family == family) return true;
   return false;
 }
 
@@ -61,11 +61,16 @@ static void warn_volume(writer *w, const vsc_model *model, const vsc_material *m
          "elements "
          "could rest there; 100 times the shear modulus is usual",
          material->name, K, stiff);
-  if (!model->terms.nodal_volume && has_linear_tets(model) && K > 20 * shear)
+  if (!model->terms.nodal_volume && has_family(model, VSC_TETS) && K > 20 * shear)
     warn(w,
          "material %s: volume_modulus is %.0f times the shear modulus and each tet keeps its own "
          "volume: "
          "linear tets lock; use `volume: nodal`",
+         material->name, K / shear);
+  if (has_family(model, VSC_WEDGES) && K > 20 * shear)
+    warn(w,
+         "material %s: volume_modulus is %.0f times the shear modulus, and wedges, which each keep their own volume, lock "
+         "where they bend or shear in the plane of their triangles; use hexahedra or quadratic tets",
          material->name, K / shear);
   if (model->terms.nodal_volume && material->element_modulus == 0)
     warn(w,
