@@ -113,6 +113,25 @@ static void starts_are_timed(void **state)
   assert_non_null(strstr(complained, "log.txt says why"));
 }
 
+// Two cases from the list: one that the tissue survives, one that stops with a message that names all it should.
+static void stresses_are_judged(void **state)
+{
+  (void)state;
+  static char table[PROGRAM_TEXT], picture[PROGRAM_TEXT];
+  must("$V bench stability --list");
+  assert_non_null(strstr(said, "flat-springs-nodal-explicit\n"));
+  must("$V bench stability --only nothing-springs-tets-implicit -t 1 -o judged");
+  load_text("judged/stability.csv", table, sizeof table);
+  assert_non_null(strstr(table, "\nnothing,springs,tets,implicit,survives,0,"));
+  assert_true(load_text("judged/stability.png", picture, sizeof picture) > 1000);
+  must("$V bench stability --only crush-springs-tets-equilibrium -t 1 -o judged");
+  load_text("judged/stability.csv", table, sizeof table);
+  assert_non_null(strstr(table, "\ncrush,springs,tets,equilibrium,stops,3,"));
+  assert_non_null(strstr(table, "moves so far that elements turn inside out, element "));
+  assert_int_equal(shell("$V bench stability --only nonsense -o judged"), 2);
+  assert_non_null(strstr(complained, "no case holds 'nonsense'; --list names them"));
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -120,6 +139,7 @@ int main(void)
       cmocka_unit_test(specimens_are_what_they_say),
       cmocka_unit_test(pictures_of_tables),
       cmocka_unit_test(starts_are_timed),
+      cmocka_unit_test(stresses_are_judged),
   };
   return cmocka_run_group_tests(tests, program_open, program_close);
 }
