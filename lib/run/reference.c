@@ -5,24 +5,32 @@
 #include <unistd.h>
 
 #include "base/mem.h"
+#include "io/replace.h"
 #include "io/vtk.h"
 #include "run/job.h"
 #include "run/prestress.h"
 
-static vsc_status write_table(const vsc_job *job, vsc_error *error)
+static bool write_rows(const vsc_unloaded *unloaded, FILE *file)
 {
-  const vsc_unloaded *unloaded = job->problem->unloaded;
-  char path[VSC_PATH];
-  vsc_job_path(job, "prestress.csv", path);
-  FILE *file = fopen(path, "w");
-  if (file == NULL) return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", path, strerror(errno));
   fputs("iteration,relaxation [1],largest [mm],mean [mm]\n", file);
   for (size_t k = 0; k < unloaded->row_count; k++) {
     const vsc_prestress_row *row = &unloaded->rows[k];
     fprintf(file, "%d,%.6g,%.6e,%.6e\n", row->iteration, row->relaxation, row->largest, row->mean);
   }
-  if (fclose(file) != 0) return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", path, strerror(errno));
-  return VSC_OK;
+  return fclose(file) == 0;
+}
+
+static vsc_status write_table(const vsc_job *job, vsc_error *error)
+{
+  char path[VSC_PATH], temporary[VSC_FILE_NAME];
+  vsc_job_path(job, "prestress.csv", path);
+  const vsc_status status = vsc_replace_begin(path, temporary, error);
+  if (status != VSC_OK) return status;
+  FILE *file = fopen(temporary, "w");
+  if (file != NULL && write_rows(job->problem->unloaded, file)) return vsc_replace_end(path, temporary, false, error);
+  const int reason = errno;
+  vsc_replace_cancel(temporary);
+  return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", path, strerror(reason));
 }
 
 // Nodes at rest, and from there to the mesh's.

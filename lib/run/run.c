@@ -348,7 +348,7 @@ static void fill_result(const vsc_job *job, vsc_run_result *result)
   result->repeats = repeats(job);
   result->repeated = job->repeated;
   result->most_inverted = job->most_inverted;
-  result->frames = job->frames;
+  result->frames = job->pvd ? vsc_pvd_count(job->pvd) : 0;  // the writer has finished: a checkpoint was saved
   vsc_job_path(job, ".pvd", result->series);
 }
 
