@@ -110,6 +110,7 @@ static void patch_volume(void *context, size_t p, int thread)
   const vsc_patch *patch = &e->model->patches[p];
   const local_arrays local = local_of(e, thread);
   const size_t count = patch->own_count + patch->shared_count;
+  if (patch->still && e->scratch->still_known) return;
   memset(local.f, 0, count * sizeof *local.f);
   if (vsc_patch_shares_volume(e->model, patch)) {
     vsc_gather_nodes(e->model, patch, e->x, local.x);
@@ -192,6 +193,10 @@ static void patch_force(void *context, size_t p, int thread)
   const size_t count = patch->own_count + patch->shared_count;
   vsc_kernel_choice choice;
   memset(local.f, 0, 4 * count * sizeof *local.f);
+  if (patch->still) {
+    vsc_put_forces(patch, local.f, e->force, e->scratch->partial);
+    return;
+  }
   const vsc_patch_work work = vsc_patch_is_surface(patch)
                                   ? prepare_surface(e, patch, &local, &choice)
                                   : prepare(e, patch, &local, &choice);
@@ -235,12 +240,19 @@ void vsc_sum_shared(const vsc_model *model, const double *partial, double *force
   vsc_parallel_for((shared_nodes + NODES_PER_PIECE - 1) / NODES_PER_PIECE, sum_shared, &sum);
 }
 
+// The volumes of all groups; those of patches that are still only once.
+static void sum_volumes(evaluation *e)
+{
+  vsc_parallel_for(e->model->patch_count, patch_volume, e);
+  e->scratch->still_known = true;
+}
+
 void vsc_force(const vsc_model *model, const double *x, const double *w, double time,
                vsc_scratch *scratch, double *force)
 {
   const vsc_terms *terms = &model->terms;
   evaluation e = {model, x, w, time, scratch, force};
-  if (terms->nodal_volume) vsc_parallel_for(model->patch_count, patch_volume, &e);
+  if (terms->nodal_volume) sum_volumes(&e);
   if (terms->smoothed) vsc_smoothed_stress(model, x, w, time, scratch);
   vsc_parallel_for(model->patch_count, patch_force, &e);
   vsc_sum_shared(model, scratch->partial, force);
@@ -264,7 +276,7 @@ vsc_patch_work vsc_patch_prepare(const vsc_model *model, const vsc_patch *patch,
 void vsc_group_volumes(const vsc_model *model, const double *x, vsc_scratch *scratch)
 {
   evaluation e = {model, x, NULL, 0, scratch, NULL};
-  vsc_parallel_for(model->patch_count, patch_volume, &e);
+  sum_volumes(&e);
 }
 
 void vsc_group_ratios(const vsc_model *model, const double *x, vsc_scratch *scratch, double *ratio)

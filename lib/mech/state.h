@@ -17,6 +17,8 @@ typedef struct vsc_limit {
   double interval;    // how long the estimate is trusted, ms
   double refreshes;   // estimates so far
   double first;       // the step that was allowed at the start, ms
+  double least;       // the shortest that any estimate has allowed, ms
+  double span;        // time gone through in steps that were allowed when they were taken, ms
   double caution;     // part of the allowed step that is taken: 1, but where energy did not balance with that
   double *mode;       // node_count x 4: the eigenvector so far; owned
 } vsc_limit;
@@ -31,6 +33,7 @@ typedef struct vsc_scratch {
   double *partial;         // partial_count x 4: parts of the forces on shared nodes, mN
   double *volume;          // node_count: deformed volume of the nodes' groups (own nodes), mm^3
   double *partial_volume;  // partial_count: parts of the same for shared nodes
+  bool still_known;        // whether these have what patches that are still give to them
   // smoothed tets: F of each slot, [slot][column][4], dF/dt (with damping), and P_e of each edge likewise, kPa
   double *gradient, *rate, *edge_stress;
   double *predicted;       // node_count x 4: velocity at the end of the step, when there is damping

@@ -317,10 +317,11 @@ void vsc_limit_stiffness(const vsc_model *model, double rate, double *stiffness)
 double vsc_limit_bound(const vsc_model *model, vsc_scratch *scratch, size_t *slot)
 {
   double *stiffness = scratch->trial, most = 0;
+  *slot = 0;
   vsc_limit_stiffness(model, 0, stiffness);
   for (size_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];
-    if (patch->family == VSC_SPRINGS_ON_EDGES) continue;
+    if (patch->family == VSC_SPRINGS_ON_EDGES || patch->still) continue;
     const size_t first = VSC_WIDTH * (size_t)patch->first_pack;
     for (size_t k = first; k < first + VSC_WIDTH * (size_t)patch->pack_count; k++) {
       if (!is_taken(model, patch, k)) continue;

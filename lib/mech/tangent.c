@@ -266,6 +266,7 @@ static void assemble_patch(void *context, size_t piece, int thread)
   const assembly *a = context;
   const size_t p = a->patches[piece];
   const vsc_patch *patch = &a->model->patches[p];
+  if (patch->still) return;
   vsc_patch_work work =
       vsc_patch_prepare(a->model, patch, a->x, a->w, a->before, a->time, a->scratch, thread);
   work.stiffness_factor = a->stiffness_factor;

@@ -374,15 +374,18 @@ static vsc_status build_elements(const vsc_mesh *mesh, const vsc_axes *axes,
 {
   vsc_parts parts = {0};
   vsc_sheet *sheets;
+  uint8_t *still = NULL;
   if (!VSC_NEW(sheets, definition->membrane_count)) return vsc_fail_memory(error, "membranes");
   vsc_status status = vsc_mixture_find(mesh, definition, material_of, mixed, error);
   if (status == VSC_OK) status = build_membranes(mesh, definition, sheets, model, error);
+  if (status == VSC_OK) status = vsc_terms_still(mesh, definition, model, &still, error);
   if (status == VSC_OK)
-    status = vsc_parts_list(mesh, material_of, mixed, sheets, model, &parts, error);
+    status = vsc_parts_list(mesh, material_of, mixed, still, sheets, model, &parts, error);
   if (status == VSC_OK) status = vsc_patches_build(mesh, axes, &parts, model, error);
   vsc_parts_free(&parts);
   for (size_t m = 0; m < definition->membrane_count; m++) vsc_sheet_free(&sheets[m]);
   vsc_free(sheets);
+  vsc_free(still);
   if (status == VSC_OK) model->terms.nodal_volume = any_shares_volume(model);
   if (status == VSC_OK) status = vsc_mixture_fill(mesh, definition, model, error);
   return status;

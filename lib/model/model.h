@@ -159,6 +159,7 @@ typedef struct vsc_patch {
   // of the partial arrays
   uint32_t first_shared, shared_count;
   uint32_t mixed;    // 1: its elements hold inclusions
+  uint32_t still;    // 1: none of its nodes can ever move, so that it is not evaluated
   size_t packs;      // where its packs begin in the model's store, bytes
   size_t law_data;   // law PAPER: vsc_chords or vsc_hex_axes of each pack; 0: none
   size_t mixtures;   // mixed: vsc_mixture of each pack; 0: none
@@ -244,8 +245,7 @@ typedef struct vsc_terms {
 } vsc_terms;
 
 typedef struct vsc_model {
-  size_t node_count, element_count;
-  size_t pack_count, patch_count;
+  size_t node_count, element_count, pack_count, patch_count;
 
   // order
   uint32_t *mesh_node;  // node_count: the mesh's node of each node
@@ -263,8 +263,8 @@ typedef struct vsc_model {
   uint32_t *sum_start;    // shared nodes + 1: where a shared node's list starts in sum_place
   uint32_t *sum_place;  // partial_count: places in the partial arrays, in the order of the patches
   size_t partial_count;
-  size_t most_nodes;  // of any patch
-  size_t most_packs;  // of any patch
+  size_t most_nodes, most_packs;  // of any patch
+  size_t still_first, still_count;  // own nodes of patches that are still: these from the first on
   double element_size;  // mean distance of the first two nodes of all parts, mm
   uint8_t *known;     // pack_count x 4: 1 where the fibre is known
   double *amplitude;  // pack_count x 4: factor of the activation; NULL: 1 everywhere

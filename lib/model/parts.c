@@ -19,15 +19,17 @@ typedef struct spring_list {
   spring *items;
 } spring_list;
 
-static uint32_t group_of(uint32_t material, bool mixed, uint32_t family)
+// Groups of all materials that move, then those that never do, so that these have consecutive nodes.
+static uint32_t group_of(const vsc_parts *parts, bool still, uint32_t material, bool mixed, uint32_t family)
 {
+  if (still) material += (uint32_t)parts->material_count;
   return (2 * material + mixed) * OF_MATERIAL + family;
 }
 
 // Groups of membranes come after those of all materials: triangles, then bends of each.
 static uint32_t first_of_membranes(const vsc_parts *parts)
 {
-  return group_of((uint32_t)parts->material_count, false, 0);
+  return group_of(parts, true, (uint32_t)parts->material_count, false, 0);
 }
 
 uint32_t vsc_parts_family(const vsc_parts *parts, uint32_t group)
@@ -39,12 +41,17 @@ uint32_t vsc_parts_family(const vsc_parts *parts, uint32_t group)
 uint32_t vsc_parts_material(const vsc_parts *parts, uint32_t group)
 {
   const uint32_t first = first_of_membranes(parts);
-  return group < first ? group / OF_MATERIAL / 2 : (group - first) / 2;
+  return group < first ? group / OF_MATERIAL / 2 % (uint32_t)parts->material_count : (group - first) / 2;
 }
 
 bool vsc_parts_mixed(const vsc_parts *parts, uint32_t group)
 {
   return group < first_of_membranes(parts) && group / OF_MATERIAL % 2 == 1;
+}
+
+bool vsc_parts_still(const vsc_parts *parts, uint32_t group)
+{
+  return group < first_of_membranes(parts) && group >= group_of(parts, true, 0, false, 0);
 }
 
 static vsc_status check_laws(const vsc_mesh *mesh, const uint32_t *material_of,
@@ -130,6 +137,22 @@ static void add_part(vsc_parts *parts, uint32_t group, uint32_t source, const ui
   parts->start[k + 1] = parts->start[k] + count;
 }
 
+static bool are_still(const uint8_t *still, const uint32_t *nodes, size_t count)
+{
+  for (size_t k = 0; k < count; k++)
+    if (!still[nodes[k]]) return false;
+  return true;
+}
+
+static void add_cell(vsc_parts *parts, const vsc_mesh *mesh, size_t e, uint32_t material, bool mixed,
+                     const uint8_t *still)
+{
+  const uint32_t *corners = vsc_mesh_corners(mesh, e);
+  const size_t count = (size_t)vsc_mesh_kind(mesh, e)->corners;
+  add_part(parts, group_of(parts, are_still(still, corners, count), material, mixed, mesh->kinds[e]),
+           (uint32_t)e, corners, count);
+}
+
 static void add_sheet(vsc_parts *parts, uint32_t membrane)
 {
   const vsc_sheet *sheet = &parts->sheets[membrane];
@@ -141,8 +164,8 @@ static void add_sheet(vsc_parts *parts, uint32_t membrane)
 }
 
 vsc_status vsc_parts_list(const vsc_mesh *mesh, const uint32_t *material_of, const uint8_t *mixed,
-                          const vsc_sheet *sheets, const vsc_model *model, vsc_parts *parts,
-                          vsc_error *error)
+                          const uint8_t *still, const vsc_sheet *sheets, const vsc_model *model,
+                          vsc_parts *parts, vsc_error *error)
 {
   spring_list springs = {0};
   *parts = (vsc_parts){.material_count = model->material_count, .sheets = sheets};
@@ -160,10 +183,10 @@ vsc_status vsc_parts_list(const vsc_mesh *mesh, const uint32_t *material_of, con
     status = vsc_fail_memory(error, "the list of elements");
   if (status == VSC_OK) {
     for (size_t e = 0; e < elements; e++)
-      add_part(parts, group_of(material_of[e], mixed[e] != 0, mesh->kinds[e]), (uint32_t)e,
-               vsc_mesh_corners(mesh, e), (size_t)vsc_mesh_kind(mesh, e)->corners);
+      add_cell(parts, mesh, e, material_of[e], mixed[e] != 0, still);
     for (size_t s = 0; s < springs.count; s++)
-      add_part(parts, group_of(material_of[springs.items[s].element], false, VSC_SPRINGS_ON_EDGES),
+      add_part(parts, group_of(parts, are_still(still, springs.items[s].node, 2),
+                               material_of[springs.items[s].element], false, VSC_SPRINGS_ON_EDGES),
                VSC_NO_ELEMENT, springs.items[s].node, 2);
     for (uint32_t m = 0; m < model->membrane_count; m++) add_sheet(parts, m);
   }

@@ -8,7 +8,7 @@
 #include "model/membranes.h"
 #include "model/model.h"
 
-// A group is what may share a patch: one family, one material, with or without inclusions.
+// A group is what may share a patch: one family, one material, with or without inclusions, still or not.
 typedef struct vsc_parts {
   size_t count;
   uint32_t *group;   // count
@@ -20,10 +20,12 @@ typedef struct vsc_parts {
 } vsc_parts;
 
 // Lists the parts of `mesh`, whose element e has the material material_of[e]; mixed[e] is 1 where it
-// holds inclusions; membrane m of the model has sheets[m]. VSC_INPUT for a law that does not know the kind of an element. The content of
-// *parts is owned by the caller, to be released also after a failure.
+// holds inclusions; still[n] is 1 for nodes that never move; membrane m of the model has sheets[m]. VSC_INPUT for a law
+// that does not know the kind of an element. The content of *parts is owned by the caller, to be released also after a
+// failure.
 vsc_status vsc_parts_list(const vsc_mesh *mesh, const uint32_t *material_of, const uint8_t *mixed,
-                          const vsc_sheet *sheets, const vsc_model *model, vsc_parts *parts, vsc_error *error);
+                          const uint8_t *still, const vsc_sheet *sheets, const vsc_model *model,
+                          vsc_parts *parts, vsc_error *error);
 
 void vsc_parts_free(vsc_parts *parts);  // the content
 
@@ -31,5 +33,6 @@ void vsc_parts_free(vsc_parts *parts);  // the content
 uint32_t vsc_parts_family(const vsc_parts *parts, uint32_t group);
 uint32_t vsc_parts_material(const vsc_parts *parts, uint32_t group);
 bool vsc_parts_mixed(const vsc_parts *parts, uint32_t group);
+bool vsc_parts_still(const vsc_parts *parts, uint32_t group);
 
 #endif

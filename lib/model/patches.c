@@ -116,7 +116,12 @@ static void number_nodes(cutter *cut, vsc_model *model)
         model->mesh_node[next] = node;
         cut->number[node] = next++;
       }
-      if (!shared) model->patches[p].own_count = next - model->patches[p].first_node;
+      if (shared) continue;
+      vsc_patch *patch = &model->patches[p];
+      patch->own_count = next - patch->first_node;
+      if (!patch->still) continue;
+      if (model->still_count == 0) model->still_first = patch->first_node;
+      model->still_count += patch->own_count;
     }
     if (!shared) model->own_node_count = next;
   }
@@ -179,6 +184,7 @@ static void start_patches(const cutter *cut, vsc_model *model)
     patch->family = vsc_parts_family(cut->parts, group);
     patch->material = vsc_parts_material(cut->parts, group);
     patch->mixed = vsc_parts_mixed(cut->parts, group);
+    patch->still = vsc_parts_still(cut->parts, group);
     patch->first_pack = (uint32_t)model->pack_count;
     patch->first_frame = (uint32_t)model->frame_count;
     patch->pack_count = (count + VSC_WIDTH - 1) / VSC_WIDTH;

@@ -43,17 +43,33 @@ static const vsc_node_set *find_set(const vsc_model *model, const char *name)
   return NULL;
 }
 
+static bool is_moved(const vsc_support_def *support)
+{
+  return support->motion[0] != 0 || support->motion[1] != 0 || support->motion[2] != 0;
+}
+
+vsc_status vsc_terms_still(const vsc_mesh *mesh, const vsc_definition *definition, const vsc_model *model,
+                           uint8_t **still, vsc_error *error)
+{
+  enum { ALL = 7, MOVED = 8 };
+  if (!VSC_NEW(*still, mesh->node_count)) return vsc_fail_memory(error, "held nodes");
+  for (size_t s = 0; s < definition->support_count; s++) {
+    const vsc_support_def *support = &definition->supports[s];
+    const vsc_node_set *set = find_set(model, support->set);
+    int held = is_moved(support) ? MOVED : 0;
+    for (int i = 0; i < 3; i++) held |= (support->held[i] != 0) << i;
+    for (size_t k = 0; set != NULL && k < set->count; k++) (*still)[set->nodes[k]] |= (uint8_t)held;
+  }
+  for (size_t n = 0; n < mesh->node_count; n++) (*still)[n] = (*still)[n] == ALL;
+  return VSC_OK;
+}
+
 // What is known of the supports while they are read one after the other.
 typedef struct supporting {
   const vsc_definition *definition;
   const uint32_t *number;  // the model's number of the mesh's nodes
   uint32_t *holder;        // node_count x 3: 1 + the support that holds the direction, 0: none
 } supporting;
-
-static bool is_moved(const vsc_support_def *support)
-{
-  return support->motion[0] != 0 || support->motion[1] != 0 || support->motion[2] != 0;
-}
 
 // A direction may be held by several supports, but not be moved by one of them.
 static vsc_status check_holder(const supporting *all, size_t s, uint32_t node, int i,

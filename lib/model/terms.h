@@ -32,6 +32,11 @@ vsc_status vsc_terms_smoothing(vsc_model *model, vsc_error *error);
 vsc_status vsc_terms_selections(const vsc_mesh *mesh, const vsc_definition *definition,
                                 vsc_model *model, vsc_error *error);
 
+// 1 for each of the mesh's nodes that supports without motion hold in all directions, else 0; after the selections.
+// A set that is not there is left for vsc_terms_supports to tell. The caller owns *still.
+vsc_status vsc_terms_still(const vsc_mesh *mesh, const vsc_definition *definition, const vsc_model *model,
+                           uint8_t **still, vsc_error *error);
+
 // Held directions: inverse mass 0; supports that move. VSC_INPUT for a direction of a node that is moved
 // by one support and held by another, and for more than VSC_MOST_MOVED of them.
 vsc_status vsc_terms_supports(const vsc_definition *definition, vsc_model *model, vsc_error *error);

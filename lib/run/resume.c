@@ -7,7 +7,7 @@
 #include "run/job.h"
 
 // Scalars of a checkpoint, in the order of list_scalars.
-enum { CLOCK = 0, LIMIT = 2, WORKS = 8, WATCH = 13, SCALARS = 25, BLOCKS = 21 };
+enum { CLOCK = 0, LIMIT = 2, WORKS = 10, WATCH = 15, SCALARS = 27, BLOCKS = 21 };
 
 static void list_scalars(vsc_job *job, double *places[SCALARS])
 {
@@ -19,8 +19,8 @@ static void list_scalars(vsc_job *job, double *places[SCALARS])
       &state->time,       &state->steps,  // CLOCK
       &limit->eigenvalue, &limit->step,    &limit->time,         &limit->interval,
       &limit->refreshes,  // LIMIT
-      &limit->first,      &ledger->active, &ledger->pressure,    &ledger->dissipated,
-      &ledger->start,     &ledger->calls,                                               // WORKS
+      &limit->first,      &limit->least,   &limit->span,
+      &ledger->active,    &ledger->pressure, &ledger->dissipated, &ledger->start, &ledger->calls,  // WORKS
       &watch->rows,       &watch->balance, &watch->energy_scale, &job->most_inverted,  // WATCH
       &job->most_continued, &job->repeated, &job->cycle.stroke, &job->cycle.speed,
       &job->cycle.ended,  &job->cycle.difference, &limit->caution, &job->calm};
@@ -86,7 +86,7 @@ static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[
        sizeof *state->moved / sizeof(double), (double *)state->moved},
       {"prony", "1, kPa, uJ", vsc_prony_size(job->problem->model), 1, state->prony},
       {"time_and_steps", "ms, 1", LIMIT - CLOCK, 1, scalars + CLOCK},
-      {"step_limit", "1/ms^2, ms, ms, ms, 1, ms", WORKS - LIMIT, 1, scalars + LIMIT},
+      {"step_limit", "1/ms^2, ms, ms, ms, 1, ms, ms, ms", WORKS - LIMIT, 1, scalars + LIMIT},
       {"works", "uJ, uJ, uJ, uJ, 1", WATCH - WORKS, 1, scalars + WORKS},
       {"watch", "1, uJ, uJ, 1, 1, 1, mm, mm/ms, 1, 1, 1, 1", SCALARS - WATCH, 1, scalars + WATCH},
       {"last_cycle", "mm, mm/ms", job->cycle.kept != NULL ? 2 * nodes : 0, 4, job->cycle.kept},

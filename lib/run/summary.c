@@ -30,6 +30,17 @@ static void write_number(FILE *file, const char *key, double value, const char *
     fprintf(file, "  \"%s\": null%s\n", key, end);
 }
 
+// What the estimates of the stable step were worth: steps of a run that had known the shortest of them from the
+// start and had kept to it, less those that were taken.
+static void write_steps(const vsc_job *job, FILE *file)
+{
+  const vsc_limit *limit = &job->state->limit;
+  if (job->problem->model->solve.kind != VSC_SOLVE_EXPLICIT) return;
+  write_number(file, "step_estimates", limit->refreshes, ",");
+  write_number(file, "shortest_allowed_step_ms", limit->least, ",");
+  if (limit->span > 0) write_number(file, "steps_saved", limit->span / limit->least - job->state->steps, ",");
+}
+
 static void write_newton(const vsc_job *job, FILE *file)
 {
   const vsc_model *model = job->problem->model;
@@ -95,7 +106,7 @@ static void write_body(const vsc_job *job, const vsc_run_result *result, const c
   if (model->force_step) write_string(file, "forced_step", "above the stable step if need be", ",");
   if (model->terms.paper)
     write_string(file, "conservative", "no: law paper keeps neither energy nor momenta", ",");
-  write_number(file, "step_estimates", job->state->limit.refreshes, ",");
+  write_steps(job, file);
   write_newton(job, file);
   if (model->cycle > 0) {
     write_number(file, "cycles", result->cycles, ",");

@@ -26,10 +26,30 @@ typedef struct motion {
   double dt;
 } motion;
 
-static size_t piece_end(const motion *m, size_t piece)
+// Nodes go in pieces, first those before the ones that are still, then those behind them.
+static size_t pieces_before(const vsc_model *model)
 {
-  const size_t end = (piece + 1) * NODES_PER_PIECE;
-  return end < m->model->node_count ? end : m->model->node_count;
+  return (model->still_first + NODES_PER_PIECE - 1) / NODES_PER_PIECE;
+}
+
+static size_t piece_count(const vsc_model *model)
+{
+  const size_t behind = model->node_count - model->still_first - model->still_count;
+  return pieces_before(model) + (behind + NODES_PER_PIECE - 1) / NODES_PER_PIECE;
+}
+
+static size_t piece_first(const vsc_model *model, size_t piece)
+{
+  const size_t before = pieces_before(model);
+  return piece < before ? piece * NODES_PER_PIECE
+                        : model->still_first + model->still_count + (piece - before) * NODES_PER_PIECE;
+}
+
+static size_t piece_end(const vsc_model *model, size_t piece)
+{
+  const size_t end = piece_first(model, piece) + NODES_PER_PIECE;
+  const size_t most = piece < pieces_before(model) ? model->still_first : model->node_count;
+  return end < most ? end : most;
 }
 
 // The three sweeps over the nodes are made of these two.
@@ -57,7 +77,7 @@ static void drift(void *context, size_t piece, int thread)
 {
   (void)thread;
   const motion *m = context;
-  for (size_t n = piece * NODES_PER_PIECE; n < piece_end(m, piece); n++)
+  for (size_t n = piece_first(m->model, piece), end = piece_end(m->model, piece); n < end; n++)
     drift_node(m, n, ((const vsc_wide *)m->state->a)[n]);
 }
 
@@ -65,7 +85,7 @@ static void kick(void *context, size_t piece, int thread)
 {
   (void)thread;
   const motion *m = context;
-  for (size_t n = piece * NODES_PER_PIECE; n < piece_end(m, piece); n++)
+  for (size_t n = piece_first(m->model, piece), end = piece_end(m->model, piece); n < end; n++)
     ((vsc_wide *)m->state->a)[n] = kick_node(m, n);
 }
 
@@ -74,7 +94,7 @@ static void kick_and_drift(void *context, size_t piece, int thread)
 {
   (void)thread;
   const motion *m = context;
-  for (size_t n = piece * NODES_PER_PIECE; n < piece_end(m, piece); n++)
+  for (size_t n = piece_first(m->model, piece), end = piece_end(m->model, piece); n < end; n++)
     drift_node(m, n, kick_node(m, n));
 }
 
@@ -103,7 +123,7 @@ vsc_status vsc_steps(const vsc_model *model, vsc_state *state, double dt, double
                      vsc_error *error)
 {
   motion m = {model, state, dt};
-  const size_t pieces = (model->node_count + NODES_PER_PIECE - 1) / NODES_PER_PIECE;
+  const size_t pieces = piece_count(model);
   const double *velocity = model->terms.damping ? state->scratch.predicted : NULL;
   vsc_parallel_for(pieces, drift, &m);
   for (double k = 1; k <= count; k++) {
@@ -158,11 +178,11 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
                     model->step, stable, state->limit.step, active_step);
   state->limit.time = state->time;
   state->limit.interval = SHORTEST_TRUST;
-  state->limit.first = stable;
+  state->limit.first = state->limit.least = stable;
   vsc_force(model, state->x, model->terms.damping ? state->v : NULL, state->time, &state->scratch,
             state->force);
   motion m = {model, state, 0};
-  for (size_t piece = 0; piece * NODES_PER_PIECE < model->node_count; piece++) kick(&m, piece, 0);
+  for (size_t piece = 0; piece < piece_count(model); piece++) kick(&m, piece, 0);
   if (model->moved_count > 0) vsc_moving_start(model, state);
   return VSC_OK;
 }
@@ -176,6 +196,7 @@ static vsc_status refresh_limit(const vsc_model *model, vsc_state *state, vsc_er
   if (change < 0.02) limit->interval = fmin(2 * limit->interval, LONGEST_TRUST);
   if (change > 0.10) limit->interval = fmax(0.5 * limit->interval, SHORTEST_TRUST);
   limit->time = state->time;
+  limit->least = fmin(limit->least, limit->step);
   char node[VSC_NODE_TEXT];
   if (!isfinite(limit->eigenvalue) || limit->step < COLLAPSE * limit->first)
     return vsc_fail(error, VSC_NUMERICAL,
@@ -215,6 +236,7 @@ static vsc_status step_to(const vsc_model *model, vsc_state *state, double stop,
   const double steps = fmin(fmax(floor((stop - start) / dt * (1 + 1e-12)), 1), all);
   const vsc_status status = vsc_steps(model, state, dt, steps, error);
   if (status == VSC_OK) state->time = steps == all ? until : start + steps * dt;
+  if (status == VSC_OK) state->limit.span += state->time - start;
   return status;
 }
 
