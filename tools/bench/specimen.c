@@ -108,6 +108,19 @@ static vsc_axes *axes_of(const vsc_mesh *mesh)
   return axes;
 }
 
+// The nodes of the half at smaller x.
+static vsc_selector half_of(const vsc_mesh *mesh)
+{
+  vsc_selector half = {.name = "half", .kind = VSC_SELECT_BOX};
+  double most = 0;
+  for (size_t n = 0; n < mesh->node_count; n++) most = fmax(most, mesh->nodes[3 * n]);
+  for (int i = 0; i < 3; i++) {
+    half.box_low[i] = -1;
+    half.box_high[i] = i == 0 ? 0.5 * most : most + 1;
+  }
+  return half;
+}
+
 static double allocated(void)
 {
   const struct mallinfo2 info = mallinfo2();
@@ -156,6 +169,11 @@ vsc_status vsc_specimen_time(const vsc_specimen *specimen, const vsc_mesh *mesh,
   definition.volume = specimen->nodal ? VSC_VOLUME_NODAL : VSC_VOLUME_ELEMENT;
   definition.tets = specimen->smoothed ? VSC_TETS_SMOOTHED : VSC_TETS_PLAIN;
   definition.end_time = 1e5;
+  vsc_selector half = half_of(mesh);
+  vsc_support_def support = {.set = "half", .held = {1, 1, 1}};
+  definition.sets = &half;
+  definition.supports = &support;
+  definition.set_count = definition.support_count = specimen->held;
   vsc_parallel_set_threads(0);
   const int threads = vsc_parallel_threads();
   *cost = (vsc_specimen_cost){.elements = mesh->element_count, .nodes = mesh->node_count};

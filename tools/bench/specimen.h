@@ -22,6 +22,7 @@ typedef struct vsc_specimen {
   bool smoothed;             // edge-smoothed tets
   vsc_active_kind active;    // TENSION or NONE
   bool resting;              // the active curve is 0 all the while
+  bool held;                 // the half at smaller x is held
   double operations, bytes;  // of a step for each element, at least (vsc_specimen_bound); 0: not counted
 } vsc_specimen;
 

@@ -237,6 +237,8 @@ static const feature features[] = {
     {{.name = "+ active tension, at rest", .active = VSC_ACTIVE_TENSION, .resting = true}, 0},
     {{.name = "law Guccione", .law = VSC_LAW_GUCCIONE}, 0},
     {{.name = "law Guccione, active tension at work", .law = VSC_LAW_GUCCIONE, .active = VSC_ACTIVE_TENSION}, 6},
+    {{.name = "half of it held", .held = true}, 0},
+    {{.name = "half of it held, damping, node-averaged", .held = true, .damping = true, .nodal = true}, 3},
     {{.name = "law Guccione, active tension at rest", .law = VSC_LAW_GUCCIONE, .active = VSC_ACTIVE_TENSION,
       .resting = true}, 6},
 };
