@@ -83,8 +83,8 @@ static const vsc_row solver_rows[] = {
      .meaning = "systems: auto, direct (a factor, reused), iterative (little memory)"},
     {"incompressible", NUMBER(vsc_definition, solve.incompressible), .text = "0",
      .meaning = "equilibrium: largest |J - 1| of shared volumes, by multipliers; 0: as K has it"},
-    {"tolerance", NUMBER(vsc_definition, solve.tolerance), .text = "1e-6",
-     .meaning = "of the residual, as a part of the forces at work"},
+    {"tolerance", NUMBER(vsc_definition, solve.tolerance), .text = "0",
+     .meaning = "of the residual, part of the forces at work; 0: 1e-6, implicit: as accuracy, at most 1e-4"},
 };
 GROUP(static, solver, -1);
 

@@ -53,7 +53,7 @@ vsc_definition vsc_default_definition(void)
 {
   return (vsc_definition){.volume = VSC_VOLUME_NODAL, .safety = 0.8, .most_added_mass = 0.05, .cycle_tolerance = 1e-3,
                           .velocity = {.unit = 1},
-                          .solve = {.rho = 0.5, .accuracy = 1e-4, .tolerance = 1e-6}};
+                          .solve = {.rho = 0.5, .accuracy = 1e-4}};
 }
 
 bool vsc_takes_elements(const vsc_definition *definition, size_t material)

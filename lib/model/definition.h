@@ -335,6 +335,8 @@ typedef enum vsc_statics {
   VSC_STATICS_RELAXATION,  // damped explicit steps: no matrix
 } vsc_statics;
 
+#define VSC_USUAL_TOLERANCE 1e-6  // of balanced forces, where a definition leaves it to us
+
 typedef struct vsc_solve_def {
   vsc_solve_kind kind;
   vsc_statics method;  // of EQUILIBRIUM
@@ -343,7 +345,8 @@ typedef struct vsc_solve_def {
   double rho;        // GENERALIZED_ALPHA: by what the fastest motions decay in each step, 0 to 1; default 0.5
   double accuracy;   // IMPLICIT without a given step: error of a step as a part of the body's size;
                      // default 1e-4
-  double tolerance;  // of the residual, as a part of the forces at work; default 1e-6
+  double tolerance;  // of the residual, as a part of the forces at work; 0 (default): 1e-6, but IMPLICIT without a
+                     // given step as accuracy, from 1e-6 to 1e-4
   double incompressible;  // EQUILIBRIUM by Newton: largest |J - 1| of shared volumes, by multipliers; 0: as K
                           // has it (default)
 } vsc_solve_def;

@@ -307,7 +307,7 @@ vsc_status vsc_definition_check(const vsc_definition *d, vsc_error *error)
            (d->solve.kind == VSC_SOLVE_EQUILIBRIUM && d->solve.method == VSC_STATICS_NEWTON),
        "solver.incompressible", d->solve.incompressible, "",
        "it needs solve: equilibrium and solver.method: newton");
-  need(&c, d->solve.tolerance > 0 && d->solve.tolerance < 0.1, "solver.tolerance", d->solve.tolerance, "",
-       "give a part of the forces above 0 and below 0.1; 1e-6 is usual");
+  need(&c, d->solve.tolerance >= 0 && d->solve.tolerance < 0.1, "solver.tolerance", d->solve.tolerance, "",
+       "give a part of the forces below 0.1, or 0 for the usual one");
   return c.status;
 }

@@ -71,6 +71,7 @@ static vsc_status balance(const trial *t, vsc_model *model, const double *start,
   // the run's own forces, but balanced
   model->solve.kind = VSC_SOLVE_EQUILIBRIUM;
   model->solve.method = VSC_STATICS_NEWTON;
+  if (t->definition.solve.tolerance == 0) model->solve.tolerance = VSC_USUAL_TOLERANCE;
   vsc_status status = vsc_state_create(model, &state, error);
   if (status != VSC_OK) return status;
   state->time = t->problem->scene->prestress.time;

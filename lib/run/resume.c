@@ -7,7 +7,7 @@
 #include "run/job.h"
 
 // Scalars of a checkpoint, in the order of list_scalars.
-enum { CLOCK = 0, LIMIT = 2, WORKS = 10, WATCH = 15, SCALARS = 27, BLOCKS = 21 };
+enum { CLOCK = 0, LIMIT = 2, WORKS = 10, WATCH = 15, SCALARS = 27, BLOCKS = 23 };
 
 static void list_scalars(vsc_job *job, double *places[SCALARS])
 {
@@ -61,10 +61,29 @@ static size_t multipliers(const vsc_job *job, size_t count)
   return job->problem->model->solve.incompressible > 0 ? count : 0;
 }
 
+// What the linear solver of implicit steps goes on from; without these none, of no size.
+static double *linear_past(const vsc_job *job, size_t *count)
+{
+  const vsc_model *model = job->problem->model;
+  *count = 0;
+  if (model->solve.kind != VSC_SOLVE_IMPLICIT) return NULL;
+  *count = sizeof(vsc_linear_past) / sizeof(double);
+  return (double *)vsc_linear_past_of(vsc_solve_newton(model, job->state)->linear);
+}
+
+static double *factorized_matrix(const vsc_job *job, size_t *count)
+{
+  const vsc_newton *newton = vsc_solve_newton(job->problem->model, job->state);
+  *count = 0;
+  return newton != NULL ? vsc_linear_factorized(newton->linear, count) : NULL;
+}
+
 static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[BLOCKS])
 {
   vsc_state *state = job->state;
   const size_t nodes = job->problem->model->node_count;
+  size_t past, factorized;
+  double *const linear = linear_past(job, &past), *const matrix = factorized_matrix(job, &factorized);
   const vsc_block list[BLOCKS] = {
       {"position", "mm", nodes, 4, state->x},
       {"velocity", "mm/ms", nodes, 4, state->v},
@@ -90,6 +109,8 @@ static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[
       {"works", "uJ, uJ, uJ, uJ, 1", WATCH - WORKS, 1, scalars + WORKS},
       {"watch", "1, uJ, uJ, 1, 1, 1, mm, mm/ms, 1, 1, 1, 1", SCALARS - WATCH, 1, scalars + WATCH},
       {"last_cycle", "mm, mm/ms", job->cycle.kept != NULL ? 2 * nodes : 0, 4, job->cycle.kept},
+      {"linear_solver", "1, mN/mm, 1, 1, 1, 1", past, 1, linear},
+      {"factorized_matrix", "mN/mm", factorized, 1, matrix},
       {"signal_extrema", "as signals.csv", 2 * VSC_SIGNALS, 1, job->watch->low},
   };
   memcpy(blocks, list, sizeof list);
@@ -122,6 +143,8 @@ vsc_status vsc_job_load(vsc_job *job, vsc_error *error)
   const vsc_status status =
       vsc_checkpoint_read(path, job->problem->model->hash, BLOCKS, blocks, error);
   if (status == VSC_OK) put_scalars(job, scalars);
+  if (status == VSC_OK && job->problem->model->solve.kind == VSC_SOLVE_IMPLICIT)
+    vsc_linear_resume(vsc_solve_newton(job->problem->model, job->state)->linear);
   return status;
 }
 

@@ -102,6 +102,7 @@ vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double u
   double done = 0, increment = 1;
   state->scratch.load = 1;
   vsc_force(model, state->x, NULL, until, &state->scratch, state->force);
+  vsc_linear_forget(newton->linear);
   vsc_newton_begin(newton, state->force);
   while (done < 1) {
     const double next = done + increment > 1 - SHORTEST ? 1 : done + increment;

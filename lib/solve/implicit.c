@@ -62,8 +62,10 @@ static vsc_status first_acceleration(const vsc_model *model, vsc_state *state, v
   if (model->masses != VSC_MASS_CONSISTENT) return VSC_OK;
   vsc_tangent_assemble(model, newton->tangent, state->x, NULL, NULL, state->time, 0, 0, &state->scratch);
   vsc_tangent_add_masses(model, newton->tangent, 1);
-  return vsc_linear_solve(newton->linear, newton->tangent, model->inverse_mass, state->x, state->force,
-                          1e-12, state->a, &indefinite, error);
+  const vsc_status status = vsc_linear_solve(newton->linear, newton->tangent, model->inverse_mass, state->x,
+                                             state->force, 1e-12, state->a, &indefinite, error);
+  vsc_linear_forget(newton->linear);
+  return status;
 }
 
 vsc_status vsc_implicit_start(const vsc_model *model, vsc_state *state, vsc_error *error)

@@ -9,9 +9,11 @@
 #include "base/mem.h"
 #include "model/small_strain.h"
 
-// With a factor of a former matrix this many iterations more than with a fresh one cost more than a
-// factorisation.
-enum { STALE = 30, MOST_ITERATIONS = 1000, LEAST_BUDGET = 100, MOST_PLAIN = 5000 };
+enum { MOST_ITERATIONS = 1000, LEAST_BUDGET = 100, MOST_PLAIN = 5000 };
+// One iteration with a factor takes as long as 16 operations of a factorisation for each number of it; what goes
+// before and after a factorisation takes as long as LEAST_WORTH iterations.
+#define WORTH 16.0
+#define LEAST_WORTH 5.0
 // A factorisation of n unknowns of a compact body costs about as much as n/BUDGET iterations.
 #define BUDGET 12.0
 #define MOST_MEMORY 0.7  // of the machine's that a factor may take
@@ -25,10 +27,10 @@ struct vsc_linear {
   cholmod_sparse view;     // of the preconditioner's numbers
   int *column, *row;       // its pattern as CHOLMOD reads it
   cholmod_factor *factor;  // analysed when first needed
-  bool factorized;         // the factor holds numbers
-  double with_fresh;       // iterations that a solution took right after a factorisation
-  double budget;           // iterations with diagonal blocks that may be spent before a factorisation,
-  double plain_left;       // and what is left of them
+  bool made;               // the factor holds its numbers; else they are to be made of `kept` again
+  double *kept;            // implicit steps: the matrix that the factor was made of
+  size_t kept_count;
+  vsc_linear_past past;
   cholmod_dense *right, *solution, *y, *e;  // memory of CHOLMOD's solution
   double *blocks;          // node_count x 9: inverses of the diagonal blocks
   double *r, *z, *p, *q;   // node_count x 4
@@ -46,6 +48,7 @@ void vsc_linear_free(vsc_linear *linear)
   cholmod_finish(&linear->common);
   vsc_free(linear->column);
   vsc_free(linear->row);
+  vsc_free(linear->kept);
   vsc_free(linear->blocks);
   vsc_free(linear->r);
   vsc_free(linear->z);
@@ -66,8 +69,8 @@ static double stiffest_ratio(const vsc_model *model)
   return most;
 }
 
-vsc_status vsc_linear_create(const vsc_model *model, vsc_linear_kind kind, vsc_linear **linear,
-                             vsc_error *error)
+vsc_status vsc_linear_create(const vsc_model *model, const vsc_tangent *tangent, vsc_linear_kind kind,
+                             vsc_linear **linear, vsc_error *error)
 {
   vsc_linear *made;
   *linear = NULL;
@@ -77,11 +80,13 @@ vsc_status vsc_linear_create(const vsc_model *model, vsc_linear_kind kind, vsc_l
   made->common.print = 0;
   made->model = model;
   made->kind = kind;
-  made->budget = fmax(3 * (double)nodes / BUDGET, LEAST_BUDGET);
-  if (stiffest_ratio(model) > STIFF_RATIO || kind == VSC_LINEAR_DIRECT) made->budget = 0;
-  if (kind == VSC_LINEAR_ITERATIVE) made->budget = INFINITY;
-  made->plain_left = made->budget;
-  if (!VSC_NEW(made->blocks, 9 * nodes) || !VSC_NEW(made->r, 4 * nodes) ||
+  double *budget = &made->past.budget;
+  *budget = fmax(3 * (double)nodes / BUDGET, LEAST_BUDGET);
+  if (stiffest_ratio(model) > STIFF_RATIO || kind == VSC_LINEAR_DIRECT) *budget = 0;
+  if (kind == VSC_LINEAR_ITERATIVE) *budget = INFINITY;
+  made->past.plain_left = *budget;
+  if (model->solve.kind == VSC_SOLVE_IMPLICIT) made->kept_count = 9 * tangent->matrix.start[nodes];
+  if (!VSC_NEW(made->kept, made->kept_count) || !VSC_NEW(made->blocks, 9 * nodes) || !VSC_NEW(made->r, 4 * nodes) ||
       !VSC_NEW(made->z, 4 * nodes) || !VSC_NEW(made->p, 4 * nodes) || !VSC_NEW(made->q, 4 * nodes)) {
     vsc_linear_free(made);
     return vsc_fail_memory(error, "the linear solver");
@@ -92,14 +97,29 @@ vsc_status vsc_linear_create(const vsc_model *model, vsc_linear_kind kind, vsc_l
 
 void vsc_linear_forget(vsc_linear *linear)
 {
-  linear->factorized = false;
-  linear->with_fresh = 0;
-  linear->plain_left = linear->budget;
+  linear->made = false;
+  linear->past = (vsc_linear_past){.budget = linear->past.budget, .plain_left = linear->past.budget};
+}
+
+vsc_linear_past *vsc_linear_past_of(vsc_linear *linear)
+{
+  return &linear->past;
+}
+
+double *vsc_linear_factorized(vsc_linear *linear, size_t *count)
+{
+  *count = linear->kept_count;
+  return linear->kept_count > 0 ? linear->kept : NULL;
+}
+
+void vsc_linear_resume(vsc_linear *linear)
+{
+  linear->made = false;
 }
 
 bool vsc_linear_is_plain(const vsc_linear *linear)
 {
-  return !linear->factorized && linear->plain_left > 0;
+  return linear->past.factorized == 0 && linear->past.plain_left > 0;
 }
 
 vsc_linear_counts vsc_linear_counted(const vsc_linear *linear)
@@ -194,30 +214,47 @@ static vsc_status fail_size(const vsc_linear *linear, vsc_error *error)
                   8e-9 * linear->counts.factor_entries);
 }
 
+// The factor of `values`, which have the pattern's places, with the diagonal raised by past.shift.
+static vsc_status make_factor(vsc_linear *linear, double *values, vsc_error *error)
+{
+  cholmod_common *common = &linear->common;
+  double shift[2] = {linear->past.shift, 0};
+  linear->view.x = values;
+  linear->counts.factorizations++;
+  const bool done = cholmod_factorize_p(&linear->view, shift, NULL, 0, linear->factor, common);
+  if (!done && common->status == CHOLMOD_OUT_OF_MEMORY) return fail_size(linear, error);
+  linear->made = done && common->status == CHOLMOD_OK;
+  return linear->made ? VSC_OK : vsc_fail(error, VSC_NUMERICAL, "the tangent is not positive definite");
+}
+
+// The factor of the tangent's preconditioner; as much is added to the diagonal as it takes.
 static vsc_status factorize(vsc_linear *linear, vsc_tangent *tangent, const double *free,
                             const double *x, vsc_error *error)
 {
   enum { MOST_SHIFTS = 4 };
-  cholmod_common *common = &linear->common;
+  vsc_block_matrix *matrix = &tangent->preconditioner;
   vsc_tangent_precondition(linear->model, tangent, x);
-  const double largest = vsc_block_matrix_largest(&tangent->preconditioner, free);
-  vsc_block_matrix_hold(&tangent->preconditioner, free, largest);
-  if (!analyze(linear, &tangent->preconditioner) || is_too_large(linear))
-    return fail_size(linear, error);
-  linear->view.x = tangent->preconditioner.values;
-  double shift[2] = {0, 0};
-  linear->factorized = false;
-  for (int k = 0; k <= MOST_SHIFTS; k++) {
-    linear->counts.factorizations++;
-    const bool done = cholmod_factorize_p(&linear->view, shift, NULL, 0, linear->factor, common);
-    if (!done && common->status == CHOLMOD_OUT_OF_MEMORY) return fail_size(linear, error);
-    if (done && common->status == CHOLMOD_OK) {
-      linear->factorized = true;
-      return VSC_OK;
-    }
-    shift[0] = k == 0 ? 1e-4 * largest : 10 * shift[0];
+  const double largest = vsc_block_matrix_largest(matrix, free);
+  vsc_block_matrix_hold(matrix, free, largest);
+  if (!analyze(linear, matrix) || is_too_large(linear)) return fail_size(linear, error);
+  if (linear->kept_count > 0) memcpy(linear->kept, matrix->values, linear->kept_count * sizeof *linear->kept);
+  vsc_linear_past *past = &linear->past;
+  past->factorized = past->shift = past->spent = 0;
+  vsc_status status = VSC_NUMERICAL;
+  for (int k = 0; k <= MOST_SHIFTS && status == VSC_NUMERICAL; k++) {
+    status = make_factor(linear, matrix->values, error);
+    past->factorized = status == VSC_OK;
+    if (status == VSC_NUMERICAL) past->shift = k == 0 ? 1e-4 * largest : 10 * past->shift;
   }
-  return vsc_fail(error, VSC_NUMERICAL, "the tangent is not positive definite");
+  return status;
+}
+
+// The factor that the past tells of, where only its matrix is there.
+static vsc_status make_again(vsc_linear *linear, const vsc_tangent *tangent, vsc_error *error)
+{
+  if (linear->past.factorized == 0 || linear->made) return VSC_OK;
+  if (!analyze(linear, &tangent->preconditioner)) return fail_size(linear, error);
+  return make_factor(linear, linear->kept, error);
 }
 
 // ---- preconditioners: z = P^-1 r
@@ -288,7 +325,7 @@ static outcome iterate(vsc_linear *linear, const vsc_tangent *tangent, const dou
   const double goal = tolerance * tolerance * product(linear, r, r);
   double before = 0;
   for (double k = 0; k < most; k++) {
-    if (linear->factorized)
+    if (linear->past.factorized != 0)
       apply_factor(linear);
     else
       apply_blocks(linear);
@@ -324,10 +361,31 @@ static bool solve_plainly(vsc_linear *linear, vsc_tangent *tangent, const double
   if (smoothed) vsc_tangent_precondition(linear->model, tangent, x);
   invert_blocks(linear, smoothed ? &tangent->preconditioner : &tangent->matrix);
   const outcome end =
-      iterate(linear, tangent, free, b, tolerance, fmin(linear->plain_left, MOST_PLAIN), d);
-  linear->plain_left -= linear->counts.iterations - before;
+      iterate(linear, tangent, free, b, tolerance, fmin(linear->past.plain_left, MOST_PLAIN), d);
+  linear->past.plain_left -= linear->counts.iterations - before;
   *indefinite = end == NEGATIVE;
-  return end == CONVERGED || linear->plain_left == INFINITY;
+  return end == CONVERGED || linear->past.plain_left == INFINITY;
+}
+
+// What a factorisation costs, in iterations.
+static double worth(const vsc_linear *linear)
+{
+  return LEAST_WORTH + linear->counts.factor_flops / (WORTH * linear->counts.factor_entries);
+}
+
+// With a factor that may be of an older matrix: false when it is not solved with as many iterations more than with a
+// fresh factor as a factorisation costs. Once they are spent, in one solution or in several, the factor is too old.
+static bool solve_with_old_factor(vsc_linear *linear, const vsc_tangent *tangent, const double *free, const double *b,
+                                  double tolerance, double *d)
+{
+  vsc_linear_past *past = &linear->past;
+  if (past->factorized == 0) return false;
+  const double usual = -past->rate * log10(tolerance), left = worth(linear) - past->spent;
+  if (left <= 0) return false;
+  const double before = linear->counts.iterations;
+  const outcome end = iterate(linear, tangent, free, b, tolerance, ceil(usual + left), d);
+  past->spent += fmax(linear->counts.iterations - before - usual, 0);
+  return end == CONVERGED;
 }
 
 vsc_status vsc_linear_solve(vsc_linear *linear, vsc_tangent *tangent, const double *free,
@@ -337,21 +395,20 @@ vsc_status vsc_linear_solve(vsc_linear *linear, vsc_tangent *tangent, const doub
   *indefinite = false;
   vsc_block_matrix_hold(&tangent->matrix, free, vsc_block_matrix_largest(&tangent->matrix, free));
   memset(linear->p, 0, 4 * linear->model->node_count * sizeof *linear->p);
-  if (!linear->factorized && linear->plain_left > 0 &&
-      solve_plainly(linear, tangent, free, x, b, tolerance, d, indefinite))
+  if (vsc_linear_is_plain(linear) && solve_plainly(linear, tangent, free, x, b, tolerance, d, indefinite))
     return VSC_OK;
-  if (linear->factorized &&
-      iterate(linear, tangent, free, b, tolerance, linear->with_fresh + STALE, d) == CONVERGED)
-    return VSC_OK;
-  const vsc_status status = factorize(linear, tangent, free, x, error);
+  vsc_status status = make_again(linear, tangent, error);
+  if (status != VSC_OK) return status;
+  if (solve_with_old_factor(linear, tangent, free, b, tolerance, d)) return VSC_OK;
+  status = factorize(linear, tangent, free, x, error);
   if (status == VSC_SYSTEM && linear->kind == VSC_LINEAR_AUTO) {
-    linear->budget = linear->plain_left = INFINITY;
+    linear->past.budget = linear->past.plain_left = INFINITY;
     solve_plainly(linear, tangent, free, x, b, tolerance, d, indefinite);
     return VSC_OK;
   }
   if (status != VSC_OK) return status;
   const double before = linear->counts.iterations;
   *indefinite = iterate(linear, tangent, free, b, tolerance, MOST_ITERATIONS, d) == NEGATIVE;
-  linear->with_fresh = linear->counts.iterations - before;
+  linear->past.rate = (linear->counts.iterations - before) / -log10(tolerance);
   return VSC_OK;
 }

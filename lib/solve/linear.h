@@ -17,14 +17,32 @@ typedef struct vsc_linear_counts {
   double factor_flops;    // operations of one factorisation
 } vsc_linear_counts;
 
-// For tangents of `model`, which must outlive it. The caller owns *linear.
-vsc_status vsc_linear_create(const vsc_model *model, vsc_linear_kind kind, vsc_linear **linear,
-                             vsc_error *error);
+// What a solver remembers of the systems before, numbers only so that checkpoints can hold it.
+typedef struct vsc_linear_past {
+  double factorized;  // 1: there is a factor, of a matrix that may be an older one
+  double shift;       // that was added to that matrix's diagonal
+  double rate;        // iterations for each digit that a solution took right after that factorisation
+  double spent;       // iterations beyond that rate since then
+  double budget;      // iterations with diagonal blocks that may be spent before a factorisation,
+  double plain_left;  // and what is left of them
+} vsc_linear_past;
+
+// For the tangents of `model` that have the pattern of `tangent`; both must outlive it. The caller owns *linear.
+vsc_status vsc_linear_create(const vsc_model *model, const vsc_tangent *tangent, vsc_linear_kind kind,
+                             vsc_linear **linear, vsc_error *error);
 
 void vsc_linear_free(vsc_linear *linear);  // NULL is fine
 
 // Forgets the factor and what was spent, so that what follows does not depend on what was before.
 void vsc_linear_forget(vsc_linear *linear);
+
+// All that what follows depends on: the past, and, with implicit steps, the numbers of the matrix that the factor was
+// made of (their count; else NULL). Who writes others there goes on from there, with the same bits.
+vsc_linear_past *vsc_linear_past_of(vsc_linear *linear);
+double *vsc_linear_factorized(vsc_linear *linear, size_t *count);
+
+// To be called when that was done.
+void vsc_linear_resume(vsc_linear *linear);
 
 // d with |b - A d| <= tolerance |b| for the tangent as assembled at x, unknowns with `free` 0 held at
 // 0 (all node_count x 4). VSC_NUMERICAL when A is not positive definite, even with up to 10 % of its

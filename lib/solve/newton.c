@@ -33,7 +33,7 @@ vsc_status vsc_newton_create(const vsc_model *model, vsc_newton **newton, vsc_er
   made->size = vsc_body_size(model);
   vsc_status status = vsc_tangent_create(model, &made->tangent, error);
   if (status == VSC_OK)
-    status = vsc_linear_create(model, model->solve.linear, &made->linear, error);
+    status = vsc_linear_create(model, made->tangent, model->solve.linear, &made->linear, error);
   if (status == VSC_OK && (!VSC_NEW(made->r, count) || !VSC_NEW(made->d, count) ||
                            !VSC_NEW(made->trial, count) || !VSC_NEW(made->before, count)))
     status = vsc_fail_memory(error, "Newton's method");
@@ -114,7 +114,6 @@ static double whole_norm(const vsc_model *model, const double *r)
 
 void vsc_newton_begin(vsc_newton *newton, const double *force)
 {
-  vsc_linear_forget(newton->linear);
   newton->scale = whole_norm(newton->model, force);
   newton->floor = 0;
 }
