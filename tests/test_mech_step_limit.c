@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The estimated stable step against the true one: all eigenvalues of M^-1 (K + 4/dt C) of small
+// The estimated stable step against the true one: all eigenvalues of M^-1 (K + 2/dt C) of small
 // bodies, K and C by differences of the force, and stepping just below and above.
 #include <gsl/gsl_eigen.h>
 
@@ -174,7 +174,7 @@ static void dense_free(dense d)
 
 static double true_eigenvalue(dense d, double dt)
 {
-  return largest_eigenvalue(d.stiffness, d.damping, dt > 0 ? 4 / dt : 0);
+  return largest_eigenvalue(d.stiffness, d.damping, dt > 0 ? 2 / dt : 0);
 }
 
 // The dt with dt^2 lambda(dt) = 4; with damping by bisection.

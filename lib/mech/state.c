@@ -33,6 +33,7 @@ static bool allocate(const vsc_model *model, vsc_state *state)
   const size_t tets =
       model->terms.smoothed ? VSC_MATRIX * VSC_WIDTH * model->pack_count : 0;
   return VSC_NEW(state->x, 4 * n) && VSC_NEW(state->v, 4 * n) && VSC_NEW(state->a, 4 * n) &&
+         VSC_NEW(state->past_a, vsc_state_has_past(model) ? 4 * n : 0) &&
          VSC_NEW(state->force, 4 * n) && VSC_NEW(state->limit.mode, 4 * n) &&
          VSC_NEW(scratch->local, (size_t)scratch->threads * scratch->local_size) &&
          VSC_NEW(scratch->partial, 4 * model->partial_count) &&
@@ -82,6 +83,7 @@ void vsc_state_free(vsc_state *state)
   vsc_free(state->x);
   vsc_free(state->v);
   vsc_free(state->a);
+  vsc_free(state->past_a);
   vsc_free(state->force);
   vsc_free(state->contact);
   vsc_free(state->contact_count);

@@ -11,7 +11,7 @@
 
 // What the estimate of the stable step remembers (step_limit.h).
 typedef struct vsc_limit {
-  double eigenvalue;  // largest of M^-1 (K + 4/dt C), 1/ms^2; 0: not estimated yet
+  double eigenvalue;  // largest of M^-1 (K + 2/dt C), 1/ms^2; 0: not estimated yet
   double step;        // the step that is allowed now: safety . 2 / sqrt(1.1 eigenvalue), ms
   double time;        // when it was estimated, ms
   double interval;    // how long the estimate is trusted, ms
@@ -72,6 +72,7 @@ typedef struct vsc_state {
   double *x;      // node_count x 4: position, mm; owned
   double *v;      // node_count x 4: velocity, mm/ms; owned
   double *a;      // node_count x 4: acceleration at x, v, time, mm/ms^2; owned
+  double *past_a; // node_count x 4: acceleration a step before a; explicit steps with damping, owned
   double *force;  // node_count x 4: total force behind a, mN; owned
   vsc_contact_sums *contact;  // obstacle_count; owned
   uint8_t *contact_count;     // node_count: obstacles that the node touched in the last step: 0, 1,
@@ -102,6 +103,12 @@ typedef struct vsc_state {
 vsc_status vsc_state_create(const vsc_model *model, vsc_state **state, vsc_error *error);
 
 void vsc_state_free(vsc_state *state);  // NULL is fine
+
+// Whether the model's method remembers the acceleration of the step before.
+static inline bool vsc_state_has_past(const vsc_model *model)
+{
+  return model->terms.damping && model->solve.kind == VSC_SOLVE_EXPLICIT;
+}
 
 // Whether the model's method remembers the step before, and its velocities too.
 bool vsc_state_has_former(const vsc_model *model, bool velocities);

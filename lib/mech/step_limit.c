@@ -58,7 +58,7 @@ static double probe_length(const vsc_model *model)
   return 1e-6 * model->element_size;
 }
 
-// mode <- M^-1 (K + 4/dt C) mode by a difference of forces; returns the growth of its norm.
+// mode <- M^-1 (K + 2/dt C) mode by a difference of forces; returns the growth of its norm.
 static double apply_system(const vsc_model *model, vsc_state *state, double time,
                            const double *base)
 {
@@ -67,7 +67,7 @@ static double apply_system(const vsc_model *model, vsc_state *state, double time
   const double norm = mass_norm(model, mode), most = largest(model, mode);
   if (!(most > 0)) return 0;
   const double size = probe_length(model) / most;
-  const double rate = state->limit.step > 0 ? 4 / state->limit.step : 0;
+  const double rate = state->limit.step > 0 ? 2 / state->limit.step : 0;
   for (size_t i = 0; i < count; i++) {
     x[i] = state->x[i] + size * mode[i];
     w[i] = size * rate * mode[i];

@@ -5,12 +5,15 @@
 
 #include "mech/state.h"
 
-// Re-estimates the largest eigenvalue lambda of M^-1 (K + 4/dt C), K and C the tangent stiffness and
+// Re-estimates the largest eigenvalue lambda of M^-1 (K + 2/dt C), K and C the tangent stiffness and
 // damping at the state's positions and the given time, and sets
 //   limit.step = safety . 2 / sqrt(1.1 lambda).
-// Velocity Verlet with the predicted velocity in the damping force is stable for
-// dt^2 k + 4 dt c <= 4, that is for dt = 2 / sqrt(lambda). Power iteration on differences of forces,
-// `iterations` of them and more while the eigenvalue rises, from the vector of the last estimate,
+// Velocity Verlet with a damping force of the velocity v + dt/4 (a + a') (solve/explicit.h) is stable for
+// dt^2 k + 2 dt c <= 4, that is for dt = 2 / sqrt(lambda): of a mode of stiffness k and damping c the steps multiply
+// by the roots z of
+//   (z - 1)^2 (z^2 + dt c (z + 1)/4) + dt^2 k z^3 + dt c z^2 (z - 1) = 0,
+// the first of which leaves the unit circle at z = -1. (With v + dt/2 a it would be dt^2 k + 4 dt c <= 4.) Power
+// iteration on differences of forces, `iterations` of them and more while the eigenvalue rises, from the vector of the last estimate,
 // stirred with noise: else a mode that becomes the stiffest elsewhere would be seen too late.
 void vsc_limit_refresh(const vsc_model *model, vsc_state *state, double time, int iterations);
 

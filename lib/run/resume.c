@@ -7,7 +7,7 @@
 #include "run/job.h"
 
 // Scalars of a checkpoint, in the order of list_scalars.
-enum { CLOCK = 0, LIMIT = 2, WORKS = 10, WATCH = 15, SCALARS = 27, BLOCKS = 23 };
+enum { CLOCK = 0, LIMIT = 2, WORKS = 10, WATCH = 15, SCALARS = 27, BLOCKS = 24 };
 
 static void list_scalars(vsc_job *job, double *places[SCALARS])
 {
@@ -55,6 +55,12 @@ static size_t former_nodes(const vsc_job *job, bool velocities)
   return vsc_state_has_former(model, velocities) ? model->node_count : 0;
 }
 
+static size_t past_nodes(const vsc_job *job)
+{
+  const vsc_model *model = job->problem->model;
+  return vsc_state_has_past(model) ? model->node_count : 0;
+}
+
 // `count` where equilibria have multipliers.
 static size_t multipliers(const vsc_job *job, size_t count)
 {
@@ -88,6 +94,7 @@ static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[
       {"position", "mm", nodes, 4, state->x},
       {"velocity", "mm/ms", nodes, 4, state->v},
       {"acceleration", "mm/ms^2", nodes, 4, state->a},
+      {"past_acceleration", "mm/ms^2", past_nodes(job), 4, state->past_a},
       {"stiffest_mode", "1", nodes, 4, state->limit.mode},
       {"contact", "mN ms, uJ, uJ, mN ms, ms", job->problem->model->obstacle_count,
        sizeof *state->contact / sizeof(double), (double *)state->contact},
@@ -164,7 +171,7 @@ static size_t sums_size(const vsc_job *job)
   return (model->obstacle_count * sizeof *job->state->contact +
           model->moved_count * sizeof *job->state->moved) / sizeof(double) +
          12 * contact_nodes(job) + vsc_prony_size(model) + 1 +
-         4 * (former_nodes(job, false) + former_nodes(job, true));
+         4 * (former_nodes(job, false) + former_nodes(job, true) + past_nodes(job));
 }
 
 // Copies these to `memory`, or back from it.
@@ -173,16 +180,16 @@ static void copy_sums(vsc_job *job, double *memory, bool back)
   vsc_state *state = job->state;
   const vsc_model *model = job->problem->model;
   const size_t nodes = 4 * contact_nodes(job);
-  enum { ARRAYS = 9 };
+  enum { ARRAYS = 10 };
   double *const arrays[ARRAYS] = {state->former,   state->pending,           state->contact_normal,
                                   (double *)state->contact, (double *)state->moved,
                                   state->prony,    &state->former_step,      state->former_x,
-                                  state->former_v};
+                                  state->former_v, state->past_a};
   const size_t counts[ARRAYS] = {nodes, nodes, nodes,
                             model->obstacle_count * sizeof *state->contact / sizeof(double),
                             model->moved_count * sizeof *state->moved / sizeof(double),
                             vsc_prony_size(model), 1, 4 * former_nodes(job, false),
-                            4 * former_nodes(job, true)};
+                            4 * former_nodes(job, true), 4 * past_nodes(job)};
   for (int k = 0; k < ARRAYS; memory += counts[k++])
     memcpy(back ? arrays[k] : memory, back ? memory : arrays[k], counts[k] * sizeof *memory);
 }

@@ -59,9 +59,11 @@ static inline void drift_node(const motion *m, size_t n, vsc_wide a)
   // v <- v + dt/2 a;  x <- x + dt v
   v[n] += 0.5 * m->dt * a;
   x[n] += m->dt * v[n];
-  // the velocity at the end of the step, as far as it is known now
-  if (m->model->terms.damping)
-    ((vsc_wide *)m->state->scratch.predicted)[n] = v[n] + 0.5 * m->dt * a;
+  if (!m->model->terms.damping) return;
+  // the velocity at the end of the step, as far as it is known now: v + dt/4 (a + a')
+  vsc_wide *past = (vsc_wide *)m->state->past_a;
+  ((vsc_wide *)m->state->scratch.predicted)[n] = v[n] + 0.25 * m->dt * (a + past[n]);
+  past[n] = a;
 }
 
 static inline vsc_wide kick_node(const motion *m, size_t n)
@@ -183,6 +185,7 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
             state->force);
   motion m = {model, state, 0};
   for (size_t piece = 0; piece < piece_count(model); piece++) kick(&m, piece, 0);
+  if (model->terms.damping) memcpy(state->past_a, state->a, 4 * model->node_count * sizeof *state->a);
   if (model->moved_count > 0) vsc_moving_start(model, state);
   return VSC_OK;
 }

@@ -11,10 +11,12 @@
 vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error);
 
 // `count` (at least 1) steps of length dt (ms), each
-//   v <- v + dt/2 a;  x <- x + dt v;  a <- f(x, v + dt/2 a, t + dt) / m;  v <- v + dt/2 a.
+//   v <- v + dt/2 a;  x <- x + dt v;  a <- f(x, v + dt/4 (a + a'), t + dt) / m;  v <- v + dt/2 a.
 // After the drift nodes are put out of obstacles (contact.h) and kept volumes back to what they were
 // (keep_volume.h), whose failure is the only one.
-// Second order, symplectic without damping. Damping sees the velocity predicted for the step's end.
+// Second order, symplectic without damping. Damping sees the velocity predicted for the step's end, with the mean of
+// the last two accelerations a and a': from step to step what alternates fastest cancels there, so that steps may be
+// up to twice as long as with a alone (mech/step_limit.h).
 // Neither the limit nor the result is checked: vsc_advance does.
 vsc_status vsc_steps(const vsc_model *model, vsc_state *state, double dt, double count,
                      vsc_error *error);

@@ -6,7 +6,7 @@
 #include "model/model.h"
 
 // Raises the stable step of a model that is just built to `definition->mass_scaling` ms (0: leaves it alone):
-// with D_i a bound of node i's stiffness K + 4/dt C (vsc_limit_stiffness), M_i its mass and lambda the eigenvalue that
+// with D_i a bound of node i's stiffness K + 2/dt C (vsc_limit_stiffness), M_i its mass and lambda the eigenvalue that
 // this step allows,
 //   M_i <- max(M_i, k D_i / lambda),
 // k just large enough, found by estimates of the step at rest and at full activation (vsc_start). Inertia alone

@@ -70,7 +70,7 @@ static void close_body(stress_body *body)
   vsc_mesh_free(body->mesh);
 }
 
-// Column j of M^-1/2 (K + 4/dt C) M^-1/2, by central differences of forces along node j / 3, axis j % 3.
+// Column j of M^-1/2 (K + 2/dt C) M^-1/2, by central differences of forces along node j / 3, axis j % 3.
 static void fill_column(stress_body *body, double dt, size_t j, double *matrix)
 {
   const vsc_model *model = body->model;
@@ -84,7 +84,7 @@ static void fill_column(stress_body *body, double dt, size_t j, double *matrix)
     const double part = side ? size : -size;
     memcpy(x, model->rest, 4 * model->node_count * sizeof *x);
     x[at] += part;
-    w[at] = 4 / dt * part;
+    w[at] = 2 / dt * part;
     vsc_force(model, x, model->terms.damping ? w : NULL, 0, &body->state->scratch, force[side]);
   }
   for (size_t i = 0; i < count; i++)
@@ -148,7 +148,7 @@ static double growth(stress_body *body, double dt, double count)
 }
 
 // The estimate is below the true limit by what safety (0.8) and the allowance of the estimate (1/sqrt 1.1) say:
-// 0.76 of it (0.78 where it has not quite converged), or where damping rules, whose part 4/dt C is taken at that
+// 0.76 of it (0.78 where it has not quite converged), or where damping rules, whose part 2/dt C is taken at that
 // shorter step, down to 0.8^2/1.1. Just below the limit a thousand steps stay bounded, a tenth above it a few
 // hundred do not.
 static void check_step(int law, stress_kind kind, bool damped, bool slivers)

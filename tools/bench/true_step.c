@@ -23,7 +23,7 @@ typedef struct matrices {
   size_t count;            // coordinates
   double *x, *w, *force[2];  // node_count x 4
   double *K, *C;           // count x count, of unit masses; C NULL without damping
-  double *sum;             // K + 4/dt C, which the eigenvalues take apart
+  double *sum;             // K + 2/dt C, which the eigenvalues take apart
 } matrices;
 
 static void close_system(matrices *s)
@@ -70,7 +70,7 @@ static double step_of(const matrices *s, gsl_eigen_symm_workspace *work, gsl_vec
   for (size_t i = 0; i < s->count; i++)
     for (size_t j = 0; j < s->count; j++) {
       const size_t a = i * s->count + j, b = j * s->count + i;
-      s->sum[a] = 0.5 * (s->K[a] + s->K[b]) + (s->C != NULL ? 2 / dt * (s->C[a] + s->C[b]) : 0);
+      s->sum[a] = 0.5 * (s->K[a] + s->K[b]) + (s->C != NULL ? (s->C[a] + s->C[b]) / dt : 0);
     }
   gsl_matrix_view matrix = gsl_matrix_view_array(s->sum, s->count, s->count);
   gsl_eigen_symm(&matrix.matrix, values, work);

@@ -7,7 +7,7 @@
 #include "mech/state.h"
 
 // The largest stable step (ms) of explicit steps about the state's positions and time, into *step: the dt with
-//   dt^2/4 lambda(dt) = 1,  lambda(dt) the largest eigenvalue of M^-1/2 (K + 4/dt C) M^-1/2,
+//   dt^2/4 lambda(dt) = 1,  lambda(dt) the largest eigenvalue of M^-1/2 (K + 2/dt C) M^-1/2,
 // K (which has to be symmetric: not of law PAPER) and C as dense matrices by central differences of forces. The
 // state is not changed. Memory and time go with the square and the cube of the number of coordinates: some
 // hundred nodes at most. Kept volumes are not seen. VSC_SYSTEM when memory is short. *step is INFINITY when
