@@ -51,14 +51,16 @@ static void test_explicit_steps_load_neither(void **state)
   assert_loaded(false, false);
 }
 
-// libgomp takes its limit from the environment, which is afterwards as it was.
+// libgomp takes its limit from the environment, which afterwards is as it was.
 static void test_cholmod_comes_alone(void **state)
 {
   (void)state;
   unsetenv("OMP_THREAD_LIMIT");
+  setenv("OPENBLAS_NUM_THREADS", "1", 1);
   simulate("solve=equilibrium");
   assert_loaded(true, false);
   assert_null(getenv("OMP_THREAD_LIMIT"));
+  assert_string_equal(getenv("OPENBLAS_NUM_THREADS"), "1");
   void *gomp = dlopen("libgomp.so.1", RTLD_LAZY | RTLD_NOLOAD);
   assert_non_null(gomp);
   int (*limit)(void);

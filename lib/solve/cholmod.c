@@ -6,16 +6,22 @@
 #include <stdlib.h>
 
 #include "base/module.h"
-#include "base/parallel.h"
 
-// CHOLMOD gives each of its loops four threads of OpenMP, however short the loop: their waking and waiting cost a third
-// of an implicit run. libgomp looks at its variables once, while it is loaded.
+// CHOLMOD gives each of its loops four threads of OpenMP, however short the loop: to wake them and to wait for them costs
+// a third of an implicit run. libgomp and OpenBLAS look at their variables once, while they are loaded; the environment
+// is then as it was.
 static vsc_status load_alone(const void **table, vsc_error *error)
 {
-  const bool ours = getenv("OMP_THREAD_LIMIT") == NULL;
-  if (ours) setenv("OMP_THREAD_LIMIT", "1", 0);
+  static const char *const limits[] = {"OMP_THREAD_LIMIT", "OPENBLAS_NUM_THREADS"};
+  enum { LIMITS = sizeof limits / sizeof limits[0] };
+  bool ours[LIMITS];
+  for (int k = 0; k < LIMITS; k++) {
+    ours[k] = getenv(limits[k]) == NULL;
+    if (ours[k]) setenv(limits[k], "1", 0);
+  }
   const vsc_status status = vsc_module_load("cholmod", "libsuitesparse-dev", table, error);
-  if (ours) unsetenv("OMP_THREAD_LIMIT");
+  for (int k = 0; k < LIMITS; k++)
+    if (ours[k]) unsetenv(limits[k]);
   return status;
 }
 
@@ -23,12 +29,7 @@ vsc_status vsc_cholmod_load(const vsc_cholmod **cholmod, vsc_error *error)
 {
   static _Atomic(const void *) loaded;
   const void *table = loaded;
-  if (table == NULL) {
-    const vsc_status status = load_alone(&table, error);
-    if (status != VSC_OK) return status;
-    loaded = table;
-  }
-  *cholmod = table;
-  if (getenv("OPENBLAS_NUM_THREADS") == NULL) (*cholmod)->set_blas_threads(vsc_parallel_threads());
-  return VSC_OK;
+  const vsc_status status = table == NULL ? load_alone(&table, error) : VSC_OK;
+  if (status == VSC_OK) *cholmod = loaded = table;
+  return status;
 }

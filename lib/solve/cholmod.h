@@ -28,12 +28,11 @@ typedef struct vsc_cholmod {
   __typeof__(cholmod_factorize_p) *factorize_p;
   __typeof__(cholmod_solve) *solve;
   __typeof__(cholmod_solve2) *solve2;
-  void (*set_blas_threads)(int threads);  // of OpenBLAS; nothing happens with another BLAS
 } vsc_cholmod;
 
-// Gives CHOLMOD's functions. It runs on the calling thread, without threads of OpenMP unless OMP_THREAD_LIMIT allows them,
-// and its BLAS on vsc_parallel_threads() of them, unless OPENBLAS_NUM_THREADS says how many. VSC_SYSTEM when CHOLMOD is
-// not there.
+// Gives CHOLMOD's functions. It runs on the calling thread alone, unless OMP_THREAD_LIMIT allows it more threads or
+// OPENBLAS_NUM_THREADS its BLAS, or the program that uses the library had them loaded before. With threads of OpenBLAS
+// results have other bits for each number of them. VSC_SYSTEM when CHOLMOD is not there.
 vsc_status vsc_cholmod_load(const vsc_cholmod **cholmod, vsc_error *error);
 
 #endif

@@ -2,13 +2,6 @@
 // The module `cholmod`: what is linked to CHOLMOD, so that the library need not be.
 #include "solve/cholmod.h"
 
-void openblas_set_num_threads(int threads) __attribute__((weak));
-
-static void set_blas_threads(int threads)
-{
-  if (openblas_set_num_threads != NULL) openblas_set_num_threads(threads);
-}
-
 const vsc_cholmod vsc_cholmod_table = {
     .start = cholmod_start,
     .finish = cholmod_finish,
@@ -29,5 +22,4 @@ const vsc_cholmod vsc_cholmod_table = {
     .factorize_p = cholmod_factorize_p,
     .solve = cholmod_solve,
     .solve2 = cholmod_solve2,
-    .set_blas_threads = set_blas_threads,
 };
