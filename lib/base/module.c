@@ -8,12 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The folder that holds the shared library of which this function is a part, links followed.
+// The folder of the shared library that holds this function, links followed; empty where the file is gone.
 static const char *find_folder(char folder[PATH_MAX])
 {
   static const char here;
   Dl_info info;
-  if (dladdr(&here, &info) == 0 || realpath(info.dli_fname, folder) == NULL) return ".";
+  if (dladdr(&here, &info) == 0 || realpath(info.dli_fname, folder) == NULL) return "";
   *strrchr(folder, '/') = '\0';
   return folder;
 }

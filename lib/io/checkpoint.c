@@ -3,6 +3,12 @@
 
 #include "io/hdf5.h"
 
+vsc_status vsc_checkpoint_ready(vsc_error *error)
+{
+  const vsc_hdf5 *hdf5;
+  return vsc_hdf5_load(&hdf5, error);
+}
+
 vsc_status vsc_checkpoint_write(const char *file, uint64_t model_hash, size_t block_count,
                                 const vsc_block *blocks, vsc_error *error)
 {

@@ -30,8 +30,8 @@ typedef struct vsc_cholmod {
   __typeof__(cholmod_solve2) *solve2;
 } vsc_cholmod;
 
-// Gives CHOLMOD's functions. It runs on the calling thread alone, unless OMP_THREAD_LIMIT allows it more threads or
-// OPENBLAS_NUM_THREADS its BLAS, or the program that uses the library had them loaded before. With threads of OpenBLAS
+// Gives CHOLMOD's functions. It runs on the calling thread alone, unless OMP_THREAD_LIMIT allows it more threads, or
+// OPENBLAS_NUM_THREADS its BLAS, or the program had libgomp or OpenBLAS loaded before. With threads of OpenBLAS
 // results have other bits for each number of them. VSC_SYSTEM when CHOLMOD is not there.
 vsc_status vsc_cholmod_load(const vsc_cholmod **cholmod, vsc_error *error);
 
