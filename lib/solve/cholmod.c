@@ -7,9 +7,9 @@
 
 #include "base/module.h"
 
-// CHOLMOD gives each of its loops four threads of OpenMP, however short the loop: to wake them and to wait for them costs
-// a third of an implicit run. libgomp and OpenBLAS look at their variables once, while they are loaded; the environment
-// is then as it was.
+// CHOLMOD gives each of its loops four threads of OpenMP, however short the loop: to wake them and to wait for them can
+// take a third of an implicit run. libgomp and OpenBLAS look at their variables once, while they are loaded; afterwards
+// the environment is as it was.
 static vsc_status load_alone(const void **table, vsc_error *error)
 {
   static const char *const limits[] = {"OMP_THREAD_LIMIT", "OPENBLAS_NUM_THREADS"};
