@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What `cmake --install` puts where: programs, library, headers as they lie in lib/ and fibers/,
+# What `cmake --install` puts where: programs, library, its modules, headers as they lie in lib/ and fibers/,
 # data, a CMake package and a pkg-config file. Everything may be moved together to another prefix.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS viscera EXPORT viscera-targets)
+install(TARGETS viscera_cholmod viscera_hdf5 DESTINATION ${CMAKE_INSTALL_LIBDIR}/viscera)
 install(DIRECTORY lib/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/viscera FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY fibers/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/viscera/fibers
         FILES_MATCHING PATTERN "*.h")
@@ -25,7 +26,7 @@ install(FILES ${CMAKE_BINARY_DIR}/viscera.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}
 
 # The installed programs find the library beside them.
 file(RELATIVE_PATH to_library ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
-foreach(program viscera_program viscera_verbs viscera_plot)
+foreach(program viscera_program viscera_plot)
   if(TARGET ${program})
     set_target_properties(${program} PROPERTIES INSTALL_RPATH "$ORIGIN/${to_library}")
     install(TARGETS ${program})

@@ -4,12 +4,12 @@
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
-#include <suitesparse/cholmod.h>
 
 #include "base/mem.h"
 #include "base/vec3.h"
 #include "fibers/ellipsoid.h"
 #include "mesh/split.h"
+#include "solve/cholmod.h"
 
 static const double PARALLEL = 1e-3;  // sine of the angle below which two axes are one
 
@@ -95,6 +95,7 @@ typedef struct laplace {
   double *depth;    // node_count: known values, then the solution
   int32_t *number;  // node_count
   size_t free;      // free nodes
+  const vsc_cholmod *cholmod;
   cholmod_common common;
   cholmod_sparse *matrix;
   cholmod_dense *right, *solution;
@@ -241,15 +242,15 @@ static bool assemble(laplace *problem)
   const size_t n = problem->free;
   const vsc_mesh *mesh = problem->mesh;
   cholmod_common *common = &problem->common;
-  problem->right = cholmod_zeros(n, 1, CHOLMOD_REAL, common);
+  problem->right = problem->cholmod->zeros(n, 1, CHOLMOD_REAL, common);
   cholmod_triplet *triplet =
-      cholmod_allocate_triplet(n, n, count_entries(mesh), -1, CHOLMOD_REAL, common);
+      problem->cholmod->allocate_triplet(n, n, count_entries(mesh), -1, CHOLMOD_REAL, common);
   if (problem->right != NULL && triplet != NULL) {
     const vsc_cell_rule quadratic = vsc_cell_rule_of(VSC_TET10);
     for (size_t e = 0; e < mesh->element_count; e++) add_element(problem, e, &quadratic, triplet);
-    problem->matrix = cholmod_triplet_to_sparse(triplet, 0, common);
+    problem->matrix = problem->cholmod->triplet_to_sparse(triplet, 0, common);
   }
-  cholmod_free_triplet(&triplet, common);
+  problem->cholmod->free_triplet(&triplet, common);
   return problem->matrix != NULL;
 }
 
@@ -257,11 +258,11 @@ static vsc_status solve(laplace *problem, vsc_error *error)
 {
   cholmod_common *common = &problem->common;
   if (!assemble(problem)) return cholmod_failure(problem, error);
-  problem->factor = cholmod_analyze(problem->matrix, common);
+  problem->factor = problem->cholmod->analyze(problem->matrix, common);
   if (problem->factor == NULL) return cholmod_failure(problem, error);
-  if (!cholmod_factorize(problem->matrix, problem->factor, common) || common->status != CHOLMOD_OK)
+  if (!problem->cholmod->factorize(problem->matrix, problem->factor, common) || common->status != CHOLMOD_OK)
     return cholmod_failure(problem, error);
-  problem->solution = cholmod_solve(CHOLMOD_A, problem->factor, problem->right, common);
+  problem->solution = problem->cholmod->solve(CHOLMOD_A, problem->factor, problem->right, common);
   if (problem->solution == NULL) return cholmod_failure(problem, error);
   const double *x = problem->solution->x;
   for (size_t i = 0; i < problem->mesh->node_count; i++)
@@ -272,15 +273,17 @@ static vsc_status solve(laplace *problem, vsc_error *error)
 static vsc_status solve_free_nodes(laplace *problem, vsc_error *error)
 {
   cholmod_common *common = &problem->common;
-  cholmod_start(common);
+  vsc_status status = vsc_cholmod_load(&problem->cholmod, error);
+  if (status != VSC_OK) return status;
+  problem->cholmod->start(common);
   common->print = 0;
   common->error_handler = NULL;
-  const vsc_status status = solve(problem, error);
-  cholmod_free_dense(&problem->solution, common);
-  cholmod_free_dense(&problem->right, common);
-  cholmod_free_factor(&problem->factor, common);
-  cholmod_free_sparse(&problem->matrix, common);
-  cholmod_finish(common);
+  status = solve(problem, error);
+  problem->cholmod->free_dense(&problem->solution, common);
+  problem->cholmod->free_dense(&problem->right, common);
+  problem->cholmod->free_factor(&problem->factor, common);
+  problem->cholmod->free_sparse(&problem->matrix, common);
+  problem->cholmod->finish(common);
   return status;
 }
 

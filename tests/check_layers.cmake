@@ -9,8 +9,8 @@ set(rooms base mesh model mech solve io fibers run viscera.h tools)
 set(top_level lib tools data fibers tests CMakeLists.txt CMakePresets.json LICENSE README.md)
 set(longest 500)
 # <header that begins so>=<files that may include it>
-set(wrapped "vtk=^lib/io/vtk[^/]*$" "hdf5=^lib/io/" "cyaml=^lib/io/" "udunits=^lib/io/"
-    "plplot=^tools/plot/" "cairo=^tools/plot/")
+set(wrapped "vtk=^lib/io/vtk[^/]*$" "hdf5=^lib/io/hdf5_module" "suitesparse=^lib/solve/cholmod" "cyaml=^lib/io/"
+    "udunits=^lib/io/" "plplot=^tools/plot/" "cairo=^tools/plot/")
 
 set(faults "")
 macro(fault text)

@@ -8,7 +8,7 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
-#include "io/hdf5_contents.h"
+#include "io/hdf5.h"
 #include "io/pvd.h"
 #include "io/scene.h"
 #include "io/vtk.h"

@@ -17,6 +17,10 @@ typedef struct vsc_block {
   double *values;     // rows x columns
 } vsc_block;
 
+// Loads HDF5, which reading and writing else do when they need it, so that a run learns before its first step whether
+// its checkpoint can be written. VSC_SYSTEM when it is not there.
+vsc_status vsc_checkpoint_ready(vsc_error *error);
+
 // Writes the blocks, with attributes "format" ("viscera checkpoint"), "version", "model_hash", and
 // each block's unit, to a temporary name, renamed when complete and on the disk. Numbers are kept
 // bit for bit, under checksums. VSC_SYSTEM when that fails; what was there before stays then.

@@ -9,6 +9,7 @@
 
 #include "base/mem.h"
 #include "base/parallel.h"
+#include "io/checkpoint.h"
 #include "run/job.h"
 #include "run/prestress.h"
 #include "solve/solve.h"
@@ -191,7 +192,7 @@ static vsc_status start(vsc_job *job, vsc_error *error)
   if (status == VSC_OK) status = observe(job, error);
   if (status == VSC_OK) status = write_row(job, error);
   if (status == VSC_OK) status = write_frame(job, error);
-  return status;
+  return status == VSC_OK ? vsc_checkpoint_ready(error) : status;
 }
 
 // The next multiple of `interval` after `time`, or `end` if that comes first or the interval is 0.

@@ -5,10 +5,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <suitesparse/cholmod.h>
 
 #include "base/mem.h"
 #include "base/vec3.h"
+#include "solve/cholmod.h"
 #include "solve/contact.h"
 
 enum { MOST_ITERATIONS = 30, SLOW = 8 };
@@ -16,6 +16,7 @@ enum { MOST_ITERATIONS = 30, SLOW = 8 };
 // A = g M^-1/2, held and blocked directions 0: one row for each volume, whose entries are three for
 // each of its nodes. CHOLMOD factorises A A^T. Stored by columns of A^T: row k of A is column k.
 typedef struct keeper {
+  const vsc_cholmod *cholmod;
   cholmod_common common;
   cholmod_sparse *rows;  // A^T: 3 nodes x volumes
   cholmod_factor *factor;
@@ -31,10 +32,10 @@ typedef struct keeper {
 static void release(void *memory)
 {
   keeper *k = memory;
-  cholmod_free_sparse(&k->rows, &k->common);
-  cholmod_free_factor(&k->factor, &k->common);
-  cholmod_free_dense(&k->right, &k->common);
-  cholmod_finish(&k->common);
+  k->cholmod->free_sparse(&k->rows, &k->common);
+  k->cholmod->free_factor(&k->factor, &k->common);
+  k->cholmod->free_dense(&k->right, &k->common);
+  k->cholmod->finish(&k->common);
   vsc_free(k->slot);
   vsc_free(k->first);
   vsc_free(k->node);
@@ -74,9 +75,9 @@ static size_t list_nodes(const vsc_model *model, keeper *k, uint32_t *place, uin
 static bool make_rows(const vsc_model *model, keeper *k, size_t count)
 {
   const size_t volumes = model->kept.count;
-  k->rows = cholmod_allocate_sparse(3 * model->node_count, volumes, 3 * count, 0, 1, 0, CHOLMOD_REAL,
+  k->rows = k->cholmod->allocate_sparse(3 * model->node_count, volumes, 3 * count, 0, 1, 0, CHOLMOD_REAL,
                                     &k->common);
-  k->right = cholmod_allocate_dense(volumes, 1, volumes, CHOLMOD_REAL, &k->common);
+  k->right = k->cholmod->allocate_dense(volumes, 1, volumes, CHOLMOD_REAL, &k->common);
   if (k->rows == NULL || k->right == NULL) return false;
   int *start = k->rows->p, *row = k->rows->i;
   for (size_t v = 0; v <= volumes; v++) start[v] = (int)(3 * k->first[v]);
@@ -91,8 +92,12 @@ static vsc_status open_keeper(const vsc_model *model, vsc_state *state, vsc_erro
   keeper *k;
   uint32_t *place = NULL, *seen = NULL;
   if (state->keeper != NULL) return VSC_OK;
+  const vsc_cholmod *cholmod;
+  const vsc_status status = vsc_cholmod_load(&cholmod, error);
+  if (status != VSC_OK) return status;
   if (!VSC_NEW(k, 1)) return vsc_fail_memory(error, "kept volumes");
-  cholmod_start(&k->common);
+  k->cholmod = cholmod;
+  cholmod->start(&k->common);
   // one thread and no BLAS: the same bits everywhere
   k->common.supernodal = CHOLMOD_SIMPLICIAL;
   k->common.final_ll = 1;
@@ -181,11 +186,11 @@ static vsc_status factorise(const vsc_model *model, const vsc_state *state, keep
 {
   fill_rows(model, state, k);
   double beta[2] = {REGULAR * mean_square(model, k), 0};
-  cholmod_sparse *A = cholmod_transpose(k->rows, 1, &k->common);
-  if (A != NULL && k->factor == NULL) k->factor = cholmod_analyze(A, &k->common);
-  const bool good = A != NULL && k->factor != NULL && cholmod_factorize_p(A, beta, NULL, 0, k->factor, &k->common) &&
-                    k->common.status == CHOLMOD_OK;
-  cholmod_free_sparse(&A, &k->common);
+  cholmod_sparse *A = k->cholmod->transpose(k->rows, 1, &k->common);
+  if (A != NULL && k->factor == NULL) k->factor = k->cholmod->analyze(A, &k->common);
+  const bool good = A != NULL && k->factor != NULL &&
+                    k->cholmod->factorize_p(A, beta, NULL, 0, k->factor, &k->common) && k->common.status == CHOLMOD_OK;
+  k->cholmod->free_sparse(&A, &k->common);
   if (good) return VSC_OK;
   if (k->common.status == CHOLMOD_OUT_OF_MEMORY) return vsc_fail_memory(error, "kept volumes");
   return vsc_fail(error, VSC_NUMERICAL,
@@ -197,10 +202,10 @@ static vsc_status factorise(const vsc_model *model, const vsc_state *state, keep
 // right <- (A A^T)^-1 right
 static bool solve(keeper *k)
 {
-  cholmod_dense *x = cholmod_solve(CHOLMOD_A, k->factor, k->right, &k->common);
+  cholmod_dense *x = k->cholmod->solve(CHOLMOD_A, k->factor, k->right, &k->common);
   if (x == NULL) return false;
   memcpy(k->right->x, x->x, k->right->nrow * sizeof(double));
-  cholmod_free_dense(&x, &k->common);
+  k->cholmod->free_dense(&x, &k->common);
   return true;
 }
 

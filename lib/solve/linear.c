@@ -3,11 +3,11 @@
 
 #include <math.h>
 #include <string.h>
-#include <suitesparse/cholmod.h>
 #include <unistd.h>
 
 #include "base/mem.h"
 #include "model/small_strain.h"
+#include "solve/cholmod.h"
 
 enum { MOST_ITERATIONS = 1000, LEAST_BUDGET = 100, MOST_PLAIN = 5000 };
 // One iteration with a factor takes as long as 16 operations of a factorisation for each number of it; what goes
@@ -23,6 +23,7 @@ enum { MOST_ITERATIONS = 1000, LEAST_BUDGET = 100, MOST_PLAIN = 5000 };
 struct vsc_linear {
   const vsc_model *model;
   vsc_linear_kind kind;
+  const vsc_cholmod *cholmod;
   cholmod_common common;
   cholmod_sparse view;     // of the preconditioner's numbers
   int *column, *row;       // its pattern as CHOLMOD reads it
@@ -40,12 +41,12 @@ struct vsc_linear {
 void vsc_linear_free(vsc_linear *linear)
 {
   if (linear == NULL) return;
-  cholmod_free_factor(&linear->factor, &linear->common);
-  cholmod_free_dense(&linear->right, &linear->common);
-  cholmod_free_dense(&linear->solution, &linear->common);
-  cholmod_free_dense(&linear->y, &linear->common);
-  cholmod_free_dense(&linear->e, &linear->common);
-  cholmod_finish(&linear->common);
+  linear->cholmod->free_factor(&linear->factor, &linear->common);
+  linear->cholmod->free_dense(&linear->right, &linear->common);
+  linear->cholmod->free_dense(&linear->solution, &linear->common);
+  linear->cholmod->free_dense(&linear->y, &linear->common);
+  linear->cholmod->free_dense(&linear->e, &linear->common);
+  linear->cholmod->finish(&linear->common);
   vsc_free(linear->column);
   vsc_free(linear->row);
   vsc_free(linear->kept);
@@ -73,10 +74,14 @@ vsc_status vsc_linear_create(const vsc_model *model, const vsc_tangent *tangent,
                              vsc_linear **linear, vsc_error *error)
 {
   vsc_linear *made;
+  const vsc_cholmod *cholmod;
   *linear = NULL;
+  const vsc_status status = vsc_cholmod_load(&cholmod, error);
+  if (status != VSC_OK) return status;
   if (!VSC_NEW(made, 1)) return vsc_fail_memory(error, "the linear solver");
   const size_t nodes = model->node_count;
-  cholmod_start(&made->common);
+  made->cholmod = cholmod;
+  cholmod->start(&made->common);
   made->common.print = 0;
   made->model = model;
   made->kind = kind;
@@ -143,7 +148,7 @@ static int *order_unknowns(vsc_linear *linear, const vsc_block_matrix *matrix)
     cholmod_sparse graph = {.nrow = nodes, .ncol = nodes, .nzmax = blocks, .p = start, .i = row,
                             .stype = -1, .itype = CHOLMOD_INT, .xtype = CHOLMOD_PATTERN,
                             .dtype = CHOLMOD_DOUBLE, .sorted = 1, .packed = 1};
-    good = cholmod_metis(&graph, NULL, 0, 1, of_nodes, common);
+    good = linear->cholmod->metis(&graph, NULL, 0, 1, of_nodes, common);
     for (size_t k = 0; good && k < nodes; k++)
       for (int c = 0; c < 3; c++) order[3 * k + (size_t)c] = 3 * of_nodes[k] + c;
   }
@@ -189,10 +194,10 @@ static bool analyze(vsc_linear *linear, const vsc_block_matrix *matrix)
     common->method[0].ordering = CHOLMOD_GIVEN;
     common->postorder = 1;
     linear->view.x = matrix->values;
-    linear->factor = cholmod_analyze_p(&linear->view, order, NULL, 0, common);
+    linear->factor = linear->cholmod->analyze_p(&linear->view, order, NULL, 0, common);
     linear->counts.factor_entries = common->lnz;
     linear->counts.factor_flops = common->fl;
-    linear->right = cholmod_zeros(3 * matrix->node_count, 1, CHOLMOD_REAL, common);
+    linear->right = linear->cholmod->zeros(3 * matrix->node_count, 1, CHOLMOD_REAL, common);
     good = linear->factor != NULL && linear->right != NULL;
   }
   vsc_free(order);
@@ -221,7 +226,7 @@ static vsc_status make_factor(vsc_linear *linear, double *values, vsc_error *err
   double shift[2] = {linear->past.shift, 0};
   linear->view.x = values;
   linear->counts.factorizations++;
-  const bool done = cholmod_factorize_p(&linear->view, shift, NULL, 0, linear->factor, common);
+  const bool done = linear->cholmod->factorize_p(&linear->view, shift, NULL, 0, linear->factor, common);
   if (!done && common->status == CHOLMOD_OUT_OF_MEMORY) return fail_size(linear, error);
   linear->made = done && common->status == CHOLMOD_OK;
   return linear->made ? VSC_OK : vsc_fail(error, VSC_NUMERICAL, "the tangent is not positive definite");
@@ -294,7 +299,7 @@ static void apply_factor(vsc_linear *linear)
   double *right = linear->right->x;
   for (size_t n = 0; n < linear->model->node_count; n++)
     memcpy(right + 3 * n, linear->r + 4 * n, 3 * sizeof *right);
-  cholmod_solve2(CHOLMOD_A, linear->factor, linear->right, NULL, &linear->solution, NULL, &linear->y,
+  linear->cholmod->solve2(CHOLMOD_A, linear->factor, linear->right, NULL, &linear->solution, NULL, &linear->y,
                  &linear->e, &linear->common);
   const double *solution = linear->solution->x;
   for (size_t n = 0; n < linear->model->node_count; n++)

@@ -56,8 +56,6 @@ static void be_run(const char *folder, char **words)
   const int file = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0666);
   if (file >= 0) dup2(file, STDERR_FILENO);
   if (file >= 0) dup2(file, STDOUT_FILENO);
-  // the variables that the launcher has set for this process are not the shell's
-  unsetenv("OMP_WAIT_POLICY");
   _exit(vsc_become("viscera", "build it", words));
 }
 
