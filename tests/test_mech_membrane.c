@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Membranes in the whole model: forces are the gradient of the stored energy and neither push nor
-// turn, threads do not matter, a capsule stiffens its block by modulus x thickness x perimeter,
-// masses, the step's bound, and what is refused.
+// turn, tangents are their derivatives, threads do not matter, a capsule stiffens its block by
+// modulus x thickness x perimeter, masses, the step's bound, and what is refused.
 #include "close.h"
 
 #include "base/mem.h"
 #include "mech/force.h"
 #include "mech/step_limit.h"
+#include "mech/tangent.h"
 #include "random.h"
 #include "sheet_mesh.h"
 #include "small_body.h"
@@ -174,6 +175,145 @@ static void damping_takes_what_it_says(void **state)
   }
 }
 
+// y = A d at x, w, `before` with A = a K + b C; all node_count x 4.
+static void tangent_product(small_body *body, const double *w, const double *before, double a, double b,
+                            const double *d, double *y)
+{
+  vsc_tangent *tangent;
+  vsc_error error;
+  if (vsc_tangent_create(body->model, &tangent, &error) != VSC_OK) fail_msg("%s", error.text);
+  vsc_tangent_assemble(body->model, tangent, body->state->x, w, before, 0, a, b, &body->state->scratch);
+  vsc_tangent_times(tangent, body->model->inverse_mass, d, y);
+  vsc_tangent_free(tangent);
+}
+
+// (f(x - h d, w - h e) - f(x + h d, w + h e))/2h, d and e NULL: 0.
+static void force_difference(small_body *body, const double *w, const double *d, const double *e, double h, double *y)
+{
+  const size_t count = 4 * body->model->node_count;
+  double *x = vsc_alloc(count, sizeof *x), *speed = vsc_alloc(count, sizeof *x), *f = vsc_alloc(count, sizeof *f);
+  for (int side = -1; side <= 1; side += 2) {
+    for (size_t i = 0; i < count; i++) {
+      x[i] = body->state->x[i] + (d != NULL ? side * h * d[i] : 0);
+      speed[i] = w != NULL ? w[i] + (e != NULL ? side * h * e[i] : 0) : 0;
+    }
+    vsc_force(body->model, x, w != NULL ? speed : NULL, 0, &body->state->scratch, f);
+    for (size_t i = 0; i < count; i++) y[i] = (side > 0 ? y[i] : 0) - side * f[i] / (2 * h);
+  }
+  vsc_free(x);
+  vsc_free(speed);
+  vsc_free(f);
+}
+
+static double *any_numbers(size_t count, uint64_t seed)
+{
+  double *array = vsc_alloc(count, sizeof *array);
+  for (size_t i = 0; i < count; i++) array[i] = i % 4 == 3 ? 0 : random_between(&seed, -1, 1);
+  return array;
+}
+
+static double size_of(const double *a, size_t count)
+{
+  double most = 0;
+  for (size_t i = 0; i < count; i++) most = fmax(most, fabs(a[i]));
+  return most;
+}
+
+// Differences of steps 2^-11 and 2^-12 mm are extrapolated; what is left is the fourth power of the step and
+// rounding, some 1e-12/h of it. Velocities act linearly: one difference is exact but for rounding. What an iterate
+// foretells of its own place is what is there.
+static void tangents_are_derivatives(void **state)
+{
+  (void)state;
+  for (int o = 0; o < 2; o++) {
+    small_body body;
+    vsc_membrane_def membrane;
+    openers[o](&body, &membrane);
+    body_build(&body);
+    deform(&body, 19, 0.15);
+    const size_t count = 4 * body.model->node_count;
+    double *d = any_numbers(count, 20), *y = any_numbers(count, 0), *z = any_numbers(count, 0);
+    double *coarse = any_numbers(count, 0), *fine = any_numbers(count, 0);
+    tangent_product(&body, NULL, NULL, 1, 0, d, y);
+    force_difference(&body, NULL, d, NULL, ldexp(1, -11), coarse);
+    force_difference(&body, NULL, d, NULL, ldexp(1, -12), fine);
+    const double size = size_of(y, count);
+    for (size_t i = 0; i < count; i++)
+      if (i % 4 < 3) assert_close(y[i], (4 * fine[i] - coarse[i]) / 3, 0, 2e-9 * size);
+    tangent_product(&body, NULL, body.state->x, 1, 0, d, z);
+    for (size_t i = 0; i < count; i++) assert_close(z[i], y[i], 0, 1e-13 * size);
+    tangent_product(&body, body.state->v, NULL, 0, 1, d, y);
+    force_difference(&body, body.state->v, NULL, d, 1, z);
+    assert_true(size_of(y, count) > 1);
+    for (size_t i = 0; i < count; i++)
+      if (i % 4 < 3) assert_close(y[i], z[i], 0, 1e-12 * size_of(y, count));
+    vsc_free(d);
+    vsc_free(y);
+    vsc_free(z);
+    vsc_free(coarse);
+    vsc_free(fine);
+    body_close(&body);
+  }
+}
+
+// A body at rest resists no motion as one rigid thing; bent sheets neither.
+static void tangents_let_rigid_motions_free(void **state)
+{
+  (void)state;
+  for (int o = 0; o < 2; o++) {
+    small_body body;
+    vsc_membrane_def membrane;
+    openers[o](&body, &membrane);
+    body_build(&body);
+    const size_t count = 4 * body.model->node_count;
+    double *d = any_numbers(count, 21), *y = any_numbers(count, 0);
+    tangent_product(&body, NULL, NULL, 1, 0, d, y);
+    const double size = size_of(y, count);
+    for (int motion = 0; motion < 6; motion++) {
+      const int a = motion % 3, b = (a + 1) % 3, c = (a + 2) % 3;
+      memset(d, 0, count * sizeof *d);
+      for (size_t n = 0; n < count; n += 4) {
+        if (motion < 3) d[n + (size_t)a] = 1;
+        if (motion >= 3) d[n + (size_t)b] = -body.state->x[n + (size_t)c];
+        if (motion >= 3) d[n + (size_t)c] = body.state->x[n + (size_t)b];
+      }
+      tangent_product(&body, NULL, NULL, 1, 0, d, y);
+      // motions of 13 mm
+      for (size_t i = 0; i < count; i++) assert_close(y[i], 0, 0, 1e-13 * size);
+    }
+    vsc_free(d);
+    vsc_free(y);
+    body_close(&body);
+  }
+}
+
+// Rows of the consistent mass matrix sum to the masses of nodes.
+static void consistent_masses_sum_up(void **state)
+{
+  (void)state;
+  for (int o = 0; o < 2; o++) {
+    small_body body;
+    vsc_membrane_def membrane;
+    vsc_tangent *tangent;
+    openers[o](&body, &membrane);
+    body.definition.masses = VSC_MASS_CONSISTENT;
+    body.definition.solve.kind = VSC_SOLVE_IMPLICIT;
+    body_build(&body);
+    const size_t count = 4 * body.model->node_count;
+    double *one = any_numbers(count, 0), *y = vsc_alloc(count, sizeof *y);
+    memset(y, 0, count * sizeof *y);
+    for (size_t i = 0; i < count; i++) one[i] = 1;
+    assert_int_equal(vsc_tangent_create(body.model, &tangent, NULL), VSC_OK);
+    vsc_tangent_masses_times(body.model, tangent, 1, one, y);
+    for (size_t i = 0; i < count; i++)
+      if (i % 4 < 3) assert_close(y[i], body.model->mass[i / 4], 1e-13, 0);
+    vsc_tangent_free(tangent);
+    vsc_free(one);
+    vsc_free(y);
+    body_close(&body);
+  }
+}
+
 static void nothing_at_rest(void **state)
 {
   (void)state;
@@ -337,6 +477,9 @@ int main(void)
       cmocka_unit_test(forces_are_the_gradient),
       cmocka_unit_test(forces_neither_push_nor_turn),
       cmocka_unit_test(damping_takes_what_it_says),
+      cmocka_unit_test(tangents_are_derivatives),
+      cmocka_unit_test(tangents_let_rigid_motions_free),
+      cmocka_unit_test(consistent_masses_sum_up),
       cmocka_unit_test(nothing_at_rest),
       cmocka_unit_test(threads_do_not_matter),
       cmocka_unit_test(energy_and_momenta_are_kept),

@@ -102,8 +102,10 @@ void vsc_block_matrix_add(vsc_block_matrix *matrix, uint32_t i, uint32_t j, doub
                           const double K[9])
 {
   if (i < j) return;
+  const size_t place = vsc_block_matrix_find(matrix, i, j);
+  if (matrix->row[place] != i) return;
   size_t stride;
-  double *block = vsc_block_at(matrix, j, vsc_block_matrix_find(matrix, i, j), &stride);
+  double *block = vsc_block_at(matrix, j, place, &stride);
   for (int c = 0; c < 3; c++)
     for (int r = 0; r < 3; r++) block[stride * (size_t)c + (size_t)r] += factor * K[3 * r + c];
 }

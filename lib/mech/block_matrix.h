@@ -41,7 +41,7 @@ static inline double *vsc_block_at(const vsc_block_matrix *matrix, size_t column
 }
 
 // Adds factor times a block (row by row) at (i, j); blocks with i < j are left out: their mirror
-// image is the one that counts.
+// image is the one that counts. So are those that the pattern has not.
 void vsc_block_matrix_add(vsc_block_matrix *matrix, uint32_t i, uint32_t j, double factor,
                           const double K[9]);
 

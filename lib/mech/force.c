@@ -266,7 +266,8 @@ vsc_patch_work vsc_patch_prepare(const vsc_model *model, const vsc_patch *patch,
   const evaluation e = {model, x, w, time, scratch, NULL};
   const local_arrays local = local_of(&e, thread);
   vsc_kernel_choice choice;
-  vsc_patch_work work = prepare(&e, patch, &local, &choice);
+  vsc_patch_work work = vsc_patch_is_surface(patch) ? prepare_surface(&e, patch, &local, &choice)
+                                                    : prepare(&e, patch, &local, &choice);
   if (!choice.damping) work.w = NULL;
   if (before != NULL) vsc_gather_nodes(model, patch, before, local.f);
   work.before = before != NULL ? local.f : NULL;

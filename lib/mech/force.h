@@ -24,7 +24,7 @@ void vsc_group_ratios(const vsc_model *model, const double *x, vsc_scratch *scra
 // them.
 void vsc_group_volumes(const vsc_model *model, const double *x, vsc_scratch *scratch);
 
-// A patch of cells with what its kernels read gathered into the scratch of `thread`; x, w, time as
+// A patch with what its kernels read gathered into the scratch of `thread`; x, w, time as
 // for vsc_force; `before` (node_count x 4, or NULL) goes where forces would. Good until the next call
 // with that thread.
 vsc_patch_work vsc_patch_prepare(const vsc_model *model, const vsc_patch *patch, const double *x,

@@ -67,7 +67,7 @@ vsc_edge_kernel *vsc_edge_product_kernel(void)
   return kernels()->edge_product;
 }
 
-vsc_tangent_kernel *vsc_cell_tangent(uint32_t family)
+vsc_tangent_kernel *vsc_family_tangent(uint32_t family)
 {
   return kernels()->tangents[family];
 }

@@ -61,7 +61,7 @@ enum { VSC_EDGE_TANGENT = 54 };
 
 typedef void vsc_edge_kernel(const vsc_edge_work *work);
 
-// The matrices of the four elements of pack k: block (i, j) of corners i >= j, row by row, at
+// The matrices of the four elements, triangles or bends of pack k: block (i, j) of corners i >= j, row by row, at
 // K + 9 (i (i + 1)/2 + j); mN/mm. `work->w` is NULL where nothing is damped.
 typedef void vsc_tangent_kernel(const vsc_patch_work *work, size_t k, vsc_wide *K);
 
@@ -94,8 +94,9 @@ vsc_edge_kernel *vsc_edge_stress_kernel(void);
 vsc_edge_kernel *vsc_edge_tangent_kernel(void);
 vsc_edge_kernel *vsc_edge_product_kernel(void);
 
-// The tangent of a family of cells under laws that are functions of strain (model/law.h).
-vsc_tangent_kernel *vsc_cell_tangent(uint32_t family);
+// The tangent of a family: of cells under laws that are functions of strain (model/law.h), of triangles and of bends;
+// NULL for springs on edges.
+vsc_tangent_kernel *vsc_family_tangent(uint32_t family);
 
 // The name of the instruction set in use: "AVX2" or "baseline".
 const char *vsc_kernel_set(void);

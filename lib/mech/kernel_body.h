@@ -13,6 +13,7 @@
 #include "mech/kernel_solid.h"
 #include "mech/kernel_surface.h"
 #include "mech/kernel_tangent.h"
+#include "mech/kernel_surface_tangent.h"
 #include "mech/kernel_smoothed.h"
 
 #define FORCE_KERNEL(composed, damping, active, nodal)                             \
@@ -58,7 +59,7 @@ const vsc_kernels KERNEL_SET = {
     .bends = {force_bends, force_damped_bends},
     .volume = volume_kernel,
     .tangents = {tangent_tets, tangent_hexes, tangent_wedges, tangent_pyramids,
-                 tangent_tets10},
+                 tangent_tets10, NULL, tangent_triangles, tangent_bends},
     .smoothed = {force_smoothed_0, force_smoothed_1},
     .gradient = gradient_kernel,
     .edge_force = edge_force_kernel,

@@ -16,7 +16,7 @@ typedef struct vsc_kernels {
   vsc_patch_kernel *triangles[2];        // [damping]
   vsc_patch_kernel *bends[2];            // [damping]
   vsc_patch_kernel *volume;
-  vsc_tangent_kernel *tangents[VSC_CELLS];
+  vsc_tangent_kernel *tangents[VSC_FAMILIES];
   vsc_patch_kernel *smoothed[2];         // tets: [nodal volume]
   vsc_patch_kernel *gradient, *edge_force;
   vsc_edge_kernel *edge_stress, *edge_tangent, *edge_product;

@@ -5,9 +5,11 @@
 #include "mech/tangent.h"
 #include "model/masses.h"
 
-// int N_i N_j dV of corners i, j of the element in lane l of a pack.
+// int N_i N_j dV of corners i, j of the element or triangle in lane l of a pack.
 static double element_mass(const vsc_model *model, const vsc_patch *patch, size_t k, int i, int j, int l)
 {
+  if (patch->family == VSC_TRIANGLES)
+    return vsc_triangles_of(model, patch)[k - patch->first_pack].V[l] * (i == j ? 2 : 1) / 12;
   const vsc_frame *frames = vsc_pack_frames(model, patch, k);
   if (patch->family == VSC_TETS) return frames->V[l] * (i == j ? 0.1 : 0.05);
   const vsc_cell_rule *rule = &model->rules[patch->family];
@@ -25,11 +27,13 @@ bool vsc_mass_matrix(const vsc_model *model, const vsc_block_matrix *pattern, do
   if (!VSC_NEW(*entries, pattern->start[model->node_count])) return false;
   for (size_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];
-    if (!vsc_patch_is_solid(patch)) continue;
-    const double density = model->materials[patch->material].density;
+    const bool triangles = patch->family == VSC_TRIANGLES;
+    if (!vsc_patch_is_solid(patch) && !triangles) continue;
+    const double density =
+        triangles ? model->membranes[patch->material].density : model->materials[patch->material].density;
     for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++)
       for (int l = 0; l < VSC_WIDTH; l++) {
-        if (model->mesh_element[VSC_WIDTH * k + (size_t)l] == VSC_NO_ELEMENT) continue;
+        if (!triangles && model->mesh_element[VSC_WIDTH * k + (size_t)l] == VSC_NO_ELEMENT) continue;
         const uint16_t(*node)[VSC_WIDTH] = vsc_pack_nodes(model, patch, k);
         for (int i = 0; i < vsc_family_corners(patch->family); i++)
           for (int j = 0; j <= i; j++) {

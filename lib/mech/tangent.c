@@ -12,13 +12,16 @@
 #include "mech/smoothed.h"
 #include "model/law_volume.h"
 
-enum { MOST_PAIRS = VSC_MOST_CORNERS * (VSC_MOST_CORNERS + 1) / 2 };
+// Nodes of any part, and their pairs.
+enum { MOST_NODES = VSC_BEND_NODES, MOST_PAIRS = MOST_NODES * (MOST_NODES + 1) / 2 };
+_Static_assert((int)MOST_NODES >= (int)VSC_MOST_CORNERS, "bends have the most nodes");
 
 // How much of each group's volume stiffness is put on its elements (numerics: 0.3 to 1 will do).
 #define GROUP_ON_ELEMENTS 0.3
 
 static bool has_tangent(const vsc_model *model, const vsc_patch *patch)
 {
+  if (vsc_patch_is_surface(patch)) return true;
   return vsc_patch_is_solid(patch) && model->materials[patch->material].law != VSC_LAW_CLASSICAL &&
          model->materials[patch->material].law != VSC_LAW_PAPER;
 }
@@ -35,11 +38,16 @@ static vsc_status check(const vsc_model *model, vsc_error *error)
   if (model->kept.count > 0)
     return refuse(error, "keep_volume", "a large volume_modulus instead");
   for (size_t p = 0; p < model->patch_count; p++) {
-    if (vsc_patch_is_surface(&model->patches[p])) return refuse(error, "a membrane", "leave out membranes");
     if (!has_tangent(model, &model->patches[p]))
       return refuse(error, "law: paper or classical", "law: springs");
   }
   return VSC_OK;
+}
+
+// Whether a place of a patch may add to the tangent; of empty triangles and bends the blocks are 0.
+static bool is_taken(const vsc_model *model, const vsc_patch *patch, size_t slot)
+{
+  return vsc_patch_is_surface(patch) || model->mesh_element[slot] != VSC_NO_ELEMENT;
 }
 
 static int pair_count(const vsc_patch *patch)
@@ -66,7 +74,7 @@ static bool list_elements(const vsc_model *model, size_t **group, uint32_t **nod
     const vsc_patch *patch = &model->patches[p];
     for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++)
       for (int l = 0; l < VSC_WIDTH; l++) {
-        if (model->mesh_element[VSC_WIDTH * k + (size_t)l] == VSC_NO_ELEMENT) continue;
+        if (!is_taken(model, patch, VSC_WIDTH * k + (size_t)l)) continue;
         for (int c = 0; c < vsc_family_corners(patch->family); c++)
           (*nodes)[at++] = vsc_node_of(model, patch, vsc_pack_nodes(model, patch, k)[c][l]);
         (*group)[++e] = at;
@@ -96,7 +104,7 @@ static bool find_places(const vsc_model *model, vsc_tangent *tangent)
             const uint16_t(*node)[VSC_WIDTH] = vsc_pack_nodes(model, patch, k);
             const uint32_t a = vsc_node_of(model, patch, node[i][l]);
             const uint32_t b = vsc_node_of(model, patch, node[j][l]);
-            if (model->mesh_element[VSC_WIDTH * k + (size_t)l] == VSC_NO_ELEMENT) continue;
+            if (!is_taken(model, patch, VSC_WIDTH * k + (size_t)l)) continue;
             tangent->places[at] = (uint32_t)vsc_block_matrix_find(&tangent->matrix, a > b ? a : b,
                                                                   a > b ? b : a);
           }
@@ -231,13 +239,12 @@ typedef struct assembly {
   const uint32_t *patches;  // of one colour
 } assembly;
 
-// Block (i, j) of corners i >= j of one element goes to the place of its nodes, or its transpose does.
+// Block (i, j) of corners i >= j of one element, of the nodes a, b, goes to their place; `turned`: its transpose does.
 static void add_block(vsc_tangent *tangent, uint32_t a, uint32_t b, uint32_t place,
-                      const vsc_wide *K, int l)
+                      const vsc_wide *K, int l, bool turned)
 {
-  const bool turned = a < b;
   size_t stride;
-  double *to = vsc_block_at(&tangent->matrix, turned ? a : b, place, &stride);
+  double *to = vsc_block_at(&tangent->matrix, a < b ? a : b, place, &stride);
   for (size_t c = 0; c < 3; c++)
     for (size_t r = 0; r < 3; r++)
       to[stride * c + r] += turned ? K[3 * c + r][l] : K[3 * r + c][l];
@@ -251,13 +258,18 @@ static void scatter_pack(const assembly *a, size_t p, size_t k, int corners, con
   const uint32_t *place = a->tangent->places + a->tangent->first_place[p] +
                           (k - patch->first_pack) * VSC_WIDTH * (size_t)pair_count(patch);
   for (int l = 0; l < VSC_WIDTH; l++) {
-    if (model->mesh_element[VSC_WIDTH * k + (size_t)l] == VSC_NO_ELEMENT) continue;
-    uint32_t number[VSC_MOST_CORNERS];
+    if (!is_taken(model, patch, VSC_WIDTH * k + (size_t)l)) continue;
+    uint32_t number[MOST_NODES];
     for (int c = 0; c < corners; c++) number[c] = vsc_node_of(model, patch, node[c][l]);
     int pair = 0;
     for (int i = 0; i < corners; i++)
-      for (int j = 0; j <= i; j++, pair++)
-        add_block(a->tangent, number[i], number[j], place[VSC_WIDTH * pair + l], K + 9 * pair, l);
+      for (int j = 0; j <= i; j++, pair++) {
+        const uint32_t at = place[VSC_WIDTH * pair + l];
+        add_block(a->tangent, number[i], number[j], at, K + 9 * pair, l, number[i] < number[j]);
+        // round a node of few triangles a bend has one node in two places
+        if (i != j && number[i] == number[j])
+          add_block(a->tangent, number[i], number[j], at, K + 9 * pair, l, true);
+      }
   }
 }
 
@@ -271,7 +283,7 @@ static void assemble_patch(void *context, size_t piece, int thread)
       vsc_patch_prepare(a->model, patch, a->x, a->w, a->before, a->time, a->scratch, thread);
   work.stiffness_factor = a->stiffness_factor;
   work.damping_factor = a->damping_factor;
-  vsc_tangent_kernel *kernel = vsc_cell_tangent(patch->family);
+  vsc_tangent_kernel *kernel = vsc_family_tangent(patch->family);
   vsc_wide K[9 * MOST_PAIRS];
   for (uint32_t k = 0; k < patch->pack_count; k++) {
     kernel(&work, k, K);
@@ -357,7 +369,8 @@ static void assemble_groups(const assembly *a)
   for_sharing_tets(model, tangent, a->x, add_tet_to_groups);
 }
 
-// The nodes of a face belong to one element, so the matrix has their blocks.
+// The nodes of a face belong to one element or to triangles of membranes, so the matrix has their blocks; where a
+// loaded triangle itself is of no membrane, a free edge of it is left out.
 static void add_load(void *matrix, uint32_t i, uint32_t j, const double K[9])
 {
   vsc_block_matrix_add(matrix, i, j, 1, K);

@@ -26,6 +26,8 @@
 #ifndef VSC_MODEL_LAW_BENDING_H
 #define VSC_MODEL_LAW_BENDING_H
 
+#include <stdbool.h>
+
 #include "base/wide.h"
 
 // Nodes 0 1 2 are the triangle; 3 + i lies across its edge from i to i + 1, and beyond that
@@ -104,6 +106,40 @@ VSC_INLINE void vsc_bend_rates(const vsc_fold folds[VSC_BEND_FOLDS],
                               fold->s_l * vsc_wide_dot(fold->on_s, edge) -
                               fold->r_l * vsc_wide_dot(fold->on_r, edge));
   }
+}
+
+// dtheta/d(p, q, s, r) of a fold, 1/mm.
+VSC_INLINE void vsc_fold_gradient(const vsc_fold *fold, vsc_wide3 gradient[4])
+{
+  gradient[0] = vsc_wide_add(vsc_wide_scale(fold->s_l - 1.0, fold->on_s), vsc_wide_scale(fold->r_l - 1.0, fold->on_r));
+  gradient[1] = vsc_wide_add(vsc_wide_scale(-fold->s_l, fold->on_s), vsc_wide_scale(-fold->r_l, fold->on_r));
+  gradient[2] = fold->on_s;
+  gradient[3] = fold->on_r;
+}
+
+// What the triangle on one side of a fold gives to the second derivative of theta. With u = dtheta/ds, f = s_l,
+// sigma = -1, or u = dtheta/dr, f = r_l, sigma = 1, and t = u x (q - p)/l, e = (q - p)/l^2, motions change theta by
+//   d2theta = sum_sides sigma [2 (u.y)(t.y) + (u.z)(t.z)/(l^2 u^2)] - 2 (e.y)(u.z),
+//   y = ds - (1 - f) dp - f dq (or dr for ds),  z = dq - dp.
+typedef struct vsc_fold_side {
+  vsc_wide3 u, t, e;             // 1/mm
+  vsc_wide y[3], z[3];           // of p, q, s (or r) in y and z
+  vsc_wide leaning, along;       // sigma, sigma/(2 l^2 u^2)
+} vsc_fold_side;
+
+VSC_INLINE vsc_fold_side vsc_fold_side_of(const vsc_fold *fold, vsc_wide3 p, vsc_wide3 q, bool across)
+{
+  const vsc_wide3 edge = vsc_wide_minus(q, p), u = across ? fold->on_r : fold->on_s;
+  const vsc_wide square = vsc_wide_dot(edge, edge), inverse = vsc_wide_inverse(square, VSC_LEAST_FOLD);
+  const vsc_wide foot = across ? fold->r_l : fold->s_l, sigma = vsc_splat(across ? 1 : -1);
+  return (vsc_fold_side){
+      .u = u,
+      .t = vsc_wide_cross(u, vsc_wide_scale(vsc_wide_sqrt(inverse), edge)),
+      .e = vsc_wide_scale(inverse, edge),
+      .y = {foot - 1.0, -foot, vsc_splat(1)},
+      .z = {vsc_splat(-1), vsc_splat(1), vsc_splat(0)},
+      .leaning = sigma,
+      .along = 0.5 * sigma * inverse * vsc_wide_inverse(vsc_wide_dot(u, u), VSC_LEAST_FOLD)};
 }
 
 // m_k = sum_j G_kj change_j

@@ -68,4 +68,30 @@ VSC_INLINE void vsc_sheet_stress(const vsc_sheet_moduli *law, const vsc_sheet_ax
   }
 }
 
+// The same law as a function of strain, e = (e_aa, e_bb, 2 e_ab), g_a . g_b = delta_ab + 2 e_ab, for tangents:
+// S = dpsi/de, so that P_a = S_aa g_a + S_ab g_b, and D = dS/de, kPa.
+typedef struct vsc_sheet_answer {
+  vsc_wide S[3], D[3][3];
+} vsc_sheet_answer;
+
+// With A, B = n_a^2, n_b^2 and gamma = g_a . g_b, so that c^2 = gamma^2/(A B) and J^2 = A B - gamma^2:
+//   S_aa = E_a (1 - 1/n_a) - G c^2/A + K (1 - 1/J) B,   S_ab = G gamma/(A B) - K (1 - 1/J) gamma.
+VSC_INLINE void vsc_sheet_tangent(const vsc_sheet_moduli *law, const vsc_sheet_axes *axes, vsc_sheet_answer *answer)
+{
+  const vsc_wide square[2] = {axes->length[0] * axes->length[0], axes->length[1] * axes->length[1]};
+  const vsc_wide inverse[2] = {axes->inverse[0] * axes->inverse[0], axes->inverse[1] * axes->inverse[1]};
+  const vsc_wide gamma = vsc_wide_dot(axes->g[0], axes->g[1]), both = inverse[0] * inverse[1];
+  const vsc_wide over = vsc_wide_inverse(axes->J, VSC_SHORTEST_AXIS);
+  const vsc_wide G = law->angular * both, spread = law->area * (1.0 - over), K = law->area * over * over * over;
+  for (int a = 0; a < 2; a++) {
+    const vsc_wide other = square[1 - a], shear = G * gamma * gamma * inverse[a];
+    answer->S[a] = law->axial[a] * (1.0 - axes->inverse[a]) - shear + spread * other;
+    answer->D[a][a] = law->axial[a] * inverse[a] * axes->inverse[a] + 4.0 * shear * inverse[a] + K * other * other;
+    answer->D[a][2] = answer->D[2][a] = -2.0 * G * gamma * inverse[a] - K * other * gamma;
+  }
+  answer->S[2] = (G - spread) * gamma;
+  answer->D[0][1] = answer->D[1][0] = 2.0 * G * gamma * gamma * both + 2.0 * spread + K * square[0] * square[1];
+  answer->D[2][2] = G - spread + K * gamma * gamma;
+}
+
 #endif
