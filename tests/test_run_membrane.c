@@ -47,6 +47,22 @@ static void a_sheet_is_resumed_bit_for_bit(void **state)
   assert_same_files("part/frames/strip_00002.vtu", "out/frames/strip_00002.vtu");
 }
 
+// Implicitly, with other threads and cut in two: the same bits; and where it comes to rest when it is clamped.
+static void a_sheet_is_solved_for(void **state)
+{
+  (void)state;
+  must("$V run strip.yaml -q -t 1 -o calm --set solve=implicit");
+  must("$V run strip.yaml -q -t 2 -o cut --set solve=implicit --stop '17 ms'");
+  must("$V run strip.yaml -q -t 1 -o cut --set solve=implicit --resume");
+  assert_same_files("cut/signals.csv", "calm/signals.csv");
+  // steps from their error, of 1e-4 of the size a step
+  assert_close(last_signal("calm", "energy_gravity"), last_signal("out", "energy_gravity"), 5e-3, 0);
+  must("$V run strip.yaml -q -o still --set solve=equilibrium --set 'node_sets=[{name: end, box: {low: [-1 mm, -1 mm, "
+       "-1 mm], high: [1.01 mm, 9 mm, 1 mm]}}]'");
+  assert_true(last_signal("still", "energy_bending") > 10 * last_signal("still", "energy_membrane"));
+  assert_true(last_signal("still", "energy_gravity") < 0);
+}
+
 // A block pulled by its weight stretches less in a stiff capsule.
 static void a_capsule_holds_a_block(void **state)
 {
@@ -84,6 +100,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_strip_falls),
       cmocka_unit_test(a_sheet_is_resumed_bit_for_bit),
+      cmocka_unit_test(a_sheet_is_solved_for),
       cmocka_unit_test(a_capsule_holds_a_block),
   };
   return cmocka_run_group_tests(tests, program_open, program_close);
