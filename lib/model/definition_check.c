@@ -270,6 +270,20 @@ static void check_smoothing(vsc_checker *c, const vsc_definition *d)
   }
 }
 
+// Volumes that are too many for Newton's method, and relaxation, which keeps none.
+static void check_kept(vsc_checker *c, const vsc_definition *d)
+{
+  const bool many = d->kept_volume == VSC_KEEP_NODE || d->kept_volume == VSC_KEEP_ELEMENT;
+  if (c->status != VSC_OK || d->kept_volume == VSC_KEEP_NONE || d->solve.kind == VSC_SOLVE_EXPLICIT) return;
+  if (many)
+    c->status = vsc_fail(c->error, VSC_INPUT,
+                         "keep_volume: %s: too many volumes for solve: equilibrium or implicit; take region or total, "
+                         "solver.incompressible in equilibria, or solve: explicit",
+                         d->kept_volume == VSC_KEEP_NODE ? "node" : "element");
+  else if (d->solve.kind == VSC_SOLVE_EQUILIBRIUM && d->solve.method == VSC_STATICS_RELAXATION)
+    c->status = vsc_fail(c->error, VSC_INPUT, "keep_volume: relaxation keeps no volume; take solver.method: newton");
+}
+
 vsc_status vsc_definition_check(const vsc_definition *d, vsc_error *error)
 {
   vsc_checker c = {.error = error, .status = VSC_OK};
@@ -307,6 +321,7 @@ vsc_status vsc_definition_check(const vsc_definition *d, vsc_error *error)
            (d->solve.kind == VSC_SOLVE_EQUILIBRIUM && d->solve.method == VSC_STATICS_NEWTON),
        "solver.incompressible", d->solve.incompressible, "",
        "it needs solve: equilibrium and solver.method: newton");
+  check_kept(&c, d);
   need(&c, d->solve.tolerance >= 0 && d->solve.tolerance < 0.1, "solver.tolerance", d->solve.tolerance, "",
        "give a part of the forces below 0.1, or 0 for the usual one");
   return c.status;

@@ -7,7 +7,7 @@
 #include "run/job.h"
 
 // Scalars of a checkpoint, in the order of list_scalars.
-enum { CLOCK = 0, LIMIT = 2, WORKS = 10, WATCH = 15, SCALARS = 27, BLOCKS = 24 };
+enum { CLOCK = 0, LIMIT = 2, WORKS = 10, WATCH = 15, SCALARS = 27, BLOCKS = 25 };
 
 static void list_scalars(vsc_job *job, double *places[SCALARS])
 {
@@ -110,6 +110,7 @@ static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[
       {"former_step", "ms", former_nodes(job, false) > 0, 1, &state->former_step},
       {"moved_supports", "1, 1/ms, mN, uJ, mN ms, mN ms, ms", job->problem->model->moved_count,
        sizeof *state->moved / sizeof(double), (double *)state->moved},
+      {"kept_pressure", "kPa", job->problem->model->kept.count, 1, state->kept_pressure},
       {"prony", "1, kPa, uJ", vsc_prony_size(job->problem->model), 1, state->prony},
       {"time_and_steps", "ms, 1", LIMIT - CLOCK, 1, scalars + CLOCK},
       {"step_limit", "1/ms^2, ms, ms, ms, 1, ms, ms, ms", WORKS - LIMIT, 1, scalars + LIMIT},
@@ -164,13 +165,13 @@ static void list_arrays(vsc_job *job, double *arrays[4])
 }
 
 // Numbers of the sums of obstacles and of moving supports, of what nodes remember of contact and of the
-// step before, and of the branches of Prony series.
+// step before, of pressures that keep volumes, and of the branches of Prony series.
 static size_t sums_size(const vsc_job *job)
 {
   const vsc_model *model = job->problem->model;
   return (model->obstacle_count * sizeof *job->state->contact +
           model->moved_count * sizeof *job->state->moved) / sizeof(double) +
-         12 * contact_nodes(job) + vsc_prony_size(model) + 1 +
+         12 * contact_nodes(job) + model->kept.count + vsc_prony_size(model) + 1 +
          4 * (former_nodes(job, false) + former_nodes(job, true) + past_nodes(job));
 }
 
@@ -180,16 +181,16 @@ static void copy_sums(vsc_job *job, double *memory, bool back)
   vsc_state *state = job->state;
   const vsc_model *model = job->problem->model;
   const size_t nodes = 4 * contact_nodes(job);
-  enum { ARRAYS = 10 };
+  enum { ARRAYS = 11 };
   double *const arrays[ARRAYS] = {state->former,   state->pending,           state->contact_normal,
                                   (double *)state->contact, (double *)state->moved,
                                   state->prony,    &state->former_step,      state->former_x,
-                                  state->former_v, state->past_a};
+                                  state->former_v, state->past_a, state->kept_pressure};
   const size_t counts[ARRAYS] = {nodes, nodes, nodes,
                             model->obstacle_count * sizeof *state->contact / sizeof(double),
                             model->moved_count * sizeof *state->moved / sizeof(double),
                             vsc_prony_size(model), 1, 4 * former_nodes(job, false),
-                            4 * former_nodes(job, true), 4 * past_nodes(job)};
+                            4 * former_nodes(job, true), 4 * past_nodes(job), model->kept.count};
   for (int k = 0; k < ARRAYS; memory += counts[k++])
     memcpy(back ? arrays[k] : memory, back ? memory : arrays[k], counts[k] * sizeof *memory);
 }

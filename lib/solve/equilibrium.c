@@ -24,13 +24,17 @@ typedef struct statics {
 static void residual(void *context, const double *x, double *r)
 {
   statics *s = context;
+  vsc_newton *newton = s->state->solver;
   vsc_force(s->model, x, NULL, s->time, &s->state->scratch, r);
+  vsc_kept_add_force(newton->kept, x, r);
 }
 
 static void assemble(void *context, const double *x, const double *before, vsc_tangent *tangent)
 {
   statics *s = context;
+  const vsc_newton *newton = s->state->solver;
   vsc_tangent_assemble(s->model, tangent, x, NULL, before, s->time, 1, 0, &s->state->scratch);
+  vsc_kept_add_tangent(newton->kept, x, 1, &tangent->matrix);
 }
 
 static void release(void *solver)
@@ -109,6 +113,7 @@ vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double u
     statics s = {model, state, start + next * way};
     state->scratch.load = load0 + next * (1 - load0);
     int iterations = 0;
+    vsc_kept_take(newton->kept, state);
     char node[VSC_NODE_TEXT];
     vsc_status status =
         guess(model, state, (next - done) * way, s.time, x)
@@ -120,6 +125,7 @@ vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double u
     if (status == VSC_OK) {
       memcpy(state->former_x, state->x, 4 * model->node_count * sizeof *x);
       memcpy(state->x, x, 4 * model->node_count * sizeof *x);
+      vsc_kept_give(newton->kept, state);
       state->former_step = (next - done) * way;
       state->time = next == 1 ? until : s.time;
       vsc_moving_reckon(model, state, newton->r, state->scratch.load, state->former_step);

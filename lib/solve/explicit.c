@@ -101,7 +101,7 @@ static void kick_and_drift(void *context, size_t piece, int thread)
 }
 
 // Puts nodes out of obstacles and volumes back to what they were, in turns, since each may disturb the
-// other. `first`: of a row of steps.
+// other. `first`: of a row of steps, in which a pressure has moved nodes by dt^2/2 of its acceleration, not dt^2.
 static vsc_status restrain(const vsc_model *model, vsc_state *state, double dt, bool first,
                            vsc_error *error)
 {
@@ -112,8 +112,9 @@ static vsc_status restrain(const vsc_model *model, vsc_state *state, double dt, 
   for (int turn = 0; turn < MOST_TURNS; turn++) {
     const vsc_status status = vsc_keep_volume(model, state, dt, first && turn == 0, error);
     if (status != VSC_OK) return status;
-    if (model->obstacle_count == 0 || vsc_contact_resolve(model, state, dt, false) == 0)
-      return VSC_OK;
+    if (model->obstacle_count > 0 && vsc_contact_resolve(model, state, dt, false) > 0) continue;
+    for (size_t k = 0; first && k < model->kept.count; k++) state->kept_pressure[k] *= 2;
+    return VSC_OK;
   }
   return vsc_fail(error, VSC_NUMERICAL,
                   "at %.6g ms contact and kept volumes do not agree after %d turns; use keep_volume: "

@@ -51,19 +51,27 @@ vsc_implicit_counts vsc_implicit_counted(const vsc_state *state)
   return ((const stepper *)state->solver)->counts;
 }
 
-// M a = f
+// M a = f, with the pressures of kept volumes
 static vsc_status first_acceleration(const vsc_model *model, vsc_state *state, vsc_newton *newton,
                                      vsc_error *error)
 {
   bool indefinite;
+  vsc_kept_look(newton->kept, state->x);
+  vsc_status status = vsc_kept_settle(newton->kept, state->v, error);
+  if (status != VSC_OK) return status;
   vsc_force(model, state->x, state->v, state->time, &state->scratch, state->force);
   for (size_t i = 0; i < 4 * model->node_count; i++)
     state->a[i] = model->inverse_mass[i] * state->force[i];
-  if (model->masses != VSC_MASS_CONSISTENT) return VSC_OK;
+  if (model->masses != VSC_MASS_CONSISTENT && newton->kept == NULL) return VSC_OK;
   vsc_tangent_assemble(model, newton->tangent, state->x, NULL, NULL, state->time, 0, 0, &state->scratch);
   vsc_tangent_add_masses(model, newton->tangent, 1);
-  const vsc_status status = vsc_linear_solve(newton->linear, newton->tangent, model->inverse_mass, state->x,
-                                             state->force, 1e-12, state->a, &indefinite, error);
+  // pressures are 0 so far
+  vsc_kept_add_force(newton->kept, state->x, state->force);
+  vsc_kept_look_moving(newton->kept, state->x, state->v);
+  status = vsc_kept_solve(newton->kept, newton->linear, newton->tangent, model->inverse_mass, state->x, state->force,
+                          1e-12, state->a, &indefinite, error);
+  vsc_kept_advance(newton->kept, 1);
+  vsc_kept_give(newton->kept, state);
   vsc_linear_forget(newton->linear);
   return status;
 }
@@ -148,6 +156,7 @@ static void residual(void *context, const double *x, double *r)
     p->s->velocity[i] = part * (c->V * x[i] + p->s->h_v[i]) + c->force_past * state->v[i];
   }
   vsc_force(p->model, p->s->middle, p->s->velocity, p->time, &p->state->scratch, r);
+  vsc_kept_add_force(p->s->newton->kept, p->s->middle, r);
   double *a = p->s->middle_a;
   for (size_t i = 0; i < 4 * p->model->node_count; i++)
     a[i] = (1 - c->mass_past) * (c->A * x[i] + p->s->h_a[i]) + c->mass_past * state->a[i];
@@ -168,6 +177,7 @@ static void assemble(void *context, const double *x, const double *before, vsc_t
                        p->model->terms.damping ? p->s->velocity : NULL,
                        before != NULL ? middle : NULL, p->time, part, part * c->V,
                        &p->state->scratch);
+  vsc_kept_add_tangent(p->s->newton->kept, p->s->middle, part, &tangent->matrix);
   vsc_tangent_add_masses(p->model, tangent, (1 - c->mass_past) * c->A);
 }
 
@@ -196,7 +206,7 @@ static double step_error(const step *p, double dt)
   return p->scheme.error * dt * dt * sqrt(sum / (double)model->node_count);
 }
 
-static void accept(const step *p, double dt)
+static vsc_status accept(const step *p, double dt, vsc_error *error)
 {
   vsc_state *state = p->state;
   const bool remembers = p->model->solve.scheme == VSC_SCHEME_BDF2;
@@ -211,6 +221,9 @@ static void accept(const step *p, double dt)
     state->x[i] = p->s->next[i];
   }
   if (remembers) state->former_step = dt;
+  vsc_kept_give(p->s->newton->kept, state);
+  // Newmark's velocities would swing about what keeps volumes; backward differences do not
+  return remembers ? VSC_OK : vsc_kept_settle(p->s->newton->kept, state->v, error);
 }
 
 // What supports that move have done in the step of dt that has led to the state: f - M a is what their own
@@ -232,6 +245,7 @@ static vsc_status do_step(const vsc_model *model, vsc_state *state, double dt, d
   p.time = state->time + (1 - p.scheme.force_past) * dt;
   const vsc_balance balance = {&p, residual, assemble};
   predict(model, state, dt, s->next);
+  vsc_kept_take(s->newton->kept, state);
   int iterations;
   *done = false;
   const vsc_status status =
@@ -250,10 +264,9 @@ static vsc_status do_step(const vsc_model *model, vsc_state *state, double dt, d
       return VSC_OK;
     }
   }
-  accept(&p, dt);
   s->counts.steps++;
   *done = true;
-  return VSC_OK;
+  return accept(&p, dt, error);
 }
 
 vsc_status vsc_implicit_to(const vsc_model *model, vsc_state *state, double until, vsc_error *error)

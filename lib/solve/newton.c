@@ -34,6 +34,7 @@ vsc_status vsc_newton_create(const vsc_model *model, vsc_newton **newton, vsc_er
   vsc_status status = vsc_tangent_create(model, &made->tangent, error);
   if (status == VSC_OK)
     status = vsc_linear_create(model, made->tangent, model->solve.linear, &made->linear, error);
+  if (status == VSC_OK) status = vsc_kept_create(model, &made->kept, error);
   if (status == VSC_OK && (!VSC_NEW(made->r, count) || !VSC_NEW(made->d, count) ||
                            !VSC_NEW(made->trial, count) || !VSC_NEW(made->before, count)))
     status = vsc_fail_memory(error, "Newton's method");
@@ -50,6 +51,7 @@ void vsc_newton_free(vsc_newton *newton)
   if (newton == NULL) return;
   vsc_tangent_free(newton->tangent);
   vsc_linear_free(newton->linear);
+  vsc_kept_free(newton->kept);
   vsc_free(newton->r);
   vsc_free(newton->d);
   vsc_free(newton->trial);
@@ -150,6 +152,7 @@ static bool step(vsc_newton *newton, double *x, uint32_t *element)
     for (size_t i = 0; i < count; i++) newton->trial[i] = x[i] + part * newton->d[i];
     if (vsc_smallest_ratio(newton->model, newton->trial, element) <= 0) continue;
     memcpy(x, newton->trial, count * sizeof *x);
+    vsc_kept_advance(newton->kept, part);
     return true;
   }
   return false;
@@ -192,7 +195,7 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
   newton->indefinite = false;
   for (int k = 0; k <= VSC_MOST_NEWTON; k++) {
     balance->residual(balance->context, x, newton->r);
-    const double norm = free_norm(model, newton->r);
+    const double norm = free_norm(model, newton->r), off = vsc_kept_look(newton->kept, x);
     if (k == 0) first = norm;
     // without loads at rest, a support that moves is all that is at work
     if (k == 0 && newton->scale == 0) newton->scale = whole_norm(model, newton->r);
@@ -200,7 +203,8 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
     const double relative = newton->scale > 0 ? norm / newton->scale : 0;
     vsc_newton_row row = {time, load, k, relative, 0, 0};
     *iterations = k;
-    if (relative <= tolerance || norm <= newton->floor || (k > 0 && stands_still(newton, norm))) {
+    const bool balanced = relative <= tolerance || norm <= newton->floor || (k > 0 && stands_still(newton, norm));
+    if (balanced && off <= VSC_KEPT_BALANCE) {
       write_row(newton, &row);
       newton->scale = fmax(newton->scale, whole_norm(model, newton->r));
       return VSC_OK;
@@ -209,14 +213,14 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
       write_row(newton, &row);
       break;
     }
-    if (k > 0) forcing = 0.9 * (norm / before) * (norm / before);
+    if (k > 0 && before > 0) forcing = 0.9 * (norm / before) * (norm / before);
     forcing = fmax(fmin(forcing, vsc_linear_is_plain(newton->linear) ? 0.1 : FACTORIZED),
-                   fmax(0.3 * tolerance / relative, 1e-8));
+                   fmax(0.3 * tolerance / fmax(relative, tolerance), 1e-8));
     before = norm;
     balance->assemble(balance->context, x, k > 0 ? newton->before : NULL, newton->tangent);
     memcpy(newton->before, x, 4 * model->node_count * sizeof *x);
-    const vsc_status status = vsc_linear_solve(newton->linear, newton->tangent, model->inverse_mass, x,
-                                               newton->r, forcing, newton->d, &newton->indefinite, error);
+    const vsc_status status = vsc_kept_solve(newton->kept, newton->linear, newton->tangent, model->inverse_mass, x,
+                                             newton->r, forcing, newton->d, &newton->indefinite, error);
     newton->floor = rounding_of(newton);
     const vsc_linear_counts after = vsc_linear_counted(newton->linear);
     row.linear = after.iterations - counts.iterations;

@@ -9,12 +9,14 @@
 
 #include "mech/state.h"
 #include "mech/tangent.h"
+#include "solve/kept_balance.h"
 #include "solve/linear.h"
 
 enum { VSC_MOST_NEWTON = 40 };  // iterations of one solution
 
 // What has to vanish. `residual` fills r (node_count x 4, mN) at x; `assemble` the tangent at the x of
-// the last residual; `before` is the iterate before, or NULL.
+// the last residual; `before` is the iterate before, or NULL. Both with the pressures of kept volumes
+// (solve/kept_balance.h), which are unknowns beside x.
 typedef struct vsc_balance {
   void *context;
   void (*residual)(void *context, const double *x, double *r);
@@ -35,6 +37,7 @@ typedef struct vsc_newton {
   const vsc_model *model;
   vsc_tangent *tangent;
   vsc_linear *linear;
+  vsc_kept_balance *kept;  // NULL where no volumes are kept; owned
   double *r, *d, *trial, *before;  // node_count x 4
   double size;            // of the body, mm
   double scale;           // of the forces at work, mN
@@ -55,7 +58,7 @@ void vsc_newton_free(vsc_newton *newton);  // NULL is fine
 void vsc_newton_begin(vsc_newton *newton, const double *force);
 
 // Solves from x (node_count x 4), which becomes the solution, to |r| <= tolerance x the scale of
-// forces. `time` and `load` go into the rows. VSC_NUMERICAL, with plain words why, when it does
+// forces and kept volumes to VSC_KEPT_BALANCE; newton->kept has their pressures, before and after. `time` and `load` go into the rows. VSC_NUMERICAL, with plain words why, when it does
 // not converge; x is then undefined.
 vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, double time, double load,
                             double *x, int *iterations, vsc_error *error);
