@@ -120,7 +120,8 @@ static void a_beat_on_a_table(void **state)
     vsc_obstacle_def table = vsc_default_obstacle();
     table.normal[2] = 1;
     table.friction = 0.3;
-    open_soft(&body, kinds[k], NULL);
+    vsc_material_def tissues[2];
+    open_soft(&body, kinds[k], tissues);
     for (int a = 0; a < 3; a++) body.material.damping[a] = 5;
     body.definition.obstacles = &table;
     body.definition.obstacle_count = 1;

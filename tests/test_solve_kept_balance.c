@@ -223,7 +223,8 @@ static void what_newton_cannot_keep_is_refused(void **state)
   for (int k = 1; k < 4; k++) {
     small_body body;
     vsc_error error;
-    open_soft(&body, kinds[k == 1 ? 0 : k], NULL);
+    vsc_material_def tissues[2];
+    open_soft(&body, kinds[k == 1 ? 0 : k], tissues);
     body.definition.solve.kind = k == 3 ? VSC_SOLVE_IMPLICIT : VSC_SOLVE_EQUILIBRIUM;
     if (k == 1) body.definition.solve.method = VSC_STATICS_RELAXATION;
     assert_int_equal(vsc_model_build(body.mesh, NULL, &body.definition, &body.model, &error), VSC_INPUT);
