@@ -133,6 +133,20 @@ static void test_moved_supports(void **state)
 }
 
 // A run that has come to its end goes on when the end is put off.
+// Implicitly, with a volume that is kept: its pressure goes on too.
+static void test_kept_volume(void **state)
+{
+  (void)state;
+  static char rows[PROGRAM_TEXT];
+  cut_and_compare("$V run block.yaml -q --set keep_volume=total --set solve=implicit", "incompressible");
+  load_text("incompressible/signals.csv", rows, sizeof rows);
+  assert_holds(rows, "kept_volume_error [1],pressure_kept [kPa]");
+  assert_close(last_signal("incompressible", "kept_volume_error"), 0, 0, 1e-11);
+  assert_true(last_signal("incompressible", "pressure_kept") != 0);
+}
+
+// A run that has come to its end goes on when the end is put off: curves without a period do not
+// depend on it.
 static void test_later_end(void **state)
 {
   (void)state;
@@ -322,6 +336,7 @@ int main(void)
       cmocka_unit_test(test_cut_in_two),
       cmocka_unit_test(test_moved_supports),
       cmocka_unit_test(test_prony),
+      cmocka_unit_test(test_kept_volume),
       cmocka_unit_test(test_later_end),
       cmocka_unit_test(test_cut_anywhere),
       cmocka_unit_test(test_older_checkpoint),
