@@ -132,7 +132,6 @@ static void test_moved_supports(void **state)
   assert_string_not_equal(summary("moved", "model_hash"), summary("whole", "model_hash"));
 }
 
-// A run that has come to its end goes on when the end is put off.
 // Implicitly, with a volume that is kept: its pressure goes on too.
 static void test_kept_volume(void **state)
 {
@@ -145,8 +144,7 @@ static void test_kept_volume(void **state)
   assert_true(last_signal("incompressible", "pressure_kept") != 0);
 }
 
-// A run that has come to its end goes on when the end is put off: curves without a period do not
-// depend on it.
+// A run that has come to its end goes on when the end is put off.
 static void test_later_end(void **state)
 {
   (void)state;

@@ -9,8 +9,8 @@
 #include "base/mem.h"
 #include "base/vec3.h"
 
-// What a pressure does is solved for at least this well: by so much volumes are off after a step.
-#define EXACT 1e-6
+// What a pressure does is solved for this well: by so much of its change volumes are off after a step.
+#define EXACT 1e-4
 
 vsc_status vsc_kept_create(const vsc_model *model, vsc_kept_balance **kept, vsc_error *error)
 {
@@ -22,7 +22,7 @@ vsc_status vsc_kept_create(const vsc_model *model, vsc_kept_balance **kept, vsc_
   made->model = model;
   if (!VSC_NEW(made->pressure, count) || !VSC_NEW(made->change, count) || !VSC_NEW(made->defect, count) ||
       !VSC_NEW(made->push, all) || !VSC_NEW(made->flux, all) || !VSC_NEW(made->answer, all) ||
-      !VSC_NEW(made->small, count * count)) {
+      !VSC_NEW(made->rest, 8 * model->node_count) || !VSC_NEW(made->small, count * count)) {
     vsc_kept_free(made);
     return vsc_fail_memory(error, "kept volumes");
   }
@@ -39,8 +39,15 @@ void vsc_kept_free(vsc_kept_balance *kept)
   vsc_free(kept->push);
   vsc_free(kept->flux);
   vsc_free(kept->answer);
+  vsc_free(kept->rest);
   vsc_free(kept->small);
   vsc_free(kept);
+}
+
+void vsc_kept_forget(vsc_kept_balance *kept)
+{
+  if (kept != NULL)
+    memset(kept->answer, 0, 4 * kept->model->kept.count * kept->model->node_count * sizeof *kept->answer);
 }
 
 void vsc_kept_take(vsc_kept_balance *kept, const vsc_state *state)
@@ -167,15 +174,22 @@ static vsc_status solve_small(double *small, double *right, size_t count, vsc_er
                   count);
 }
 
-// d = A^-1 b, 0 where nothing pushes.
-static vsc_status solve_one(const vsc_model *model, vsc_linear *linear, vsc_tangent *tangent, const double *free,
-                            const double *x, const double *b, double tolerance, double *d, bool *indefinite,
-                            vsc_error *error)
+// z_k = A^-1 g_k, from what it was with a former A: z <- z + A^-1 (g - A z).
+static vsc_status answer_push(vsc_kept_balance *kept, size_t k, vsc_linear *linear, vsc_tangent *tangent,
+                              const double *free, const double *x, bool *indefinite, vsc_error *error)
 {
+  const vsc_model *model = kept->model;
+  const size_t all = 4 * model->node_count;
+  const double *push = kept->push + k * all;
+  double *answer = kept->answer + k * all, *rest = kept->rest, *step = kept->rest + all;
+  vsc_tangent_times(tangent, free, answer, rest);
+  for (size_t i = 0; i < all; i++) rest[i] = free[i] == 0 ? 0 : push[i] - rest[i];
+  const double goal = EXACT * EXACT * product(model, free, push, push), square = product(model, free, rest, rest);
+  if (square <= goal) return VSC_OK;
   bool negative = false;
-  memset(d, 0, 4 * model->node_count * sizeof *d);
-  if (!(product(model, free, b, b) > 0)) return VSC_OK;
-  const vsc_status status = vsc_linear_solve(linear, tangent, free, x, b, tolerance, d, &negative, error);
+  const vsc_status status =
+      vsc_linear_solve(linear, tangent, free, x, rest, sqrt(goal / square), step, &negative, error);
+  for (size_t i = 0; status == VSC_OK && i < all; i++) answer[i] += step[i];
   *indefinite = *indefinite || negative;
   return status;
 }
@@ -187,11 +201,13 @@ vsc_status vsc_kept_solve(vsc_kept_balance *kept, vsc_linear *linear, vsc_tangen
   if (kept == NULL) return vsc_linear_solve(linear, tangent, free, x, b, tolerance, d, indefinite, error);
   const vsc_model *model = kept->model;
   const size_t count = model->kept.count, all = 4 * model->node_count;
+  vsc_status status = VSC_OK;
   *indefinite = false;
-  vsc_status status = solve_one(model, linear, tangent, free, x, b, tolerance, d, indefinite, error);
+  memset(d, 0, all * sizeof *d);
+  if (product(model, free, b, b) > 0)
+    status = vsc_linear_solve(linear, tangent, free, x, b, tolerance, d, indefinite, error);
   for (size_t k = 0; status == VSC_OK && k < count; k++)
-    status = solve_one(model, linear, tangent, free, x, kept->push + k * all, fmin(tolerance, EXACT),
-                       kept->answer + k * all, indefinite, error);
+    status = answer_push(kept, k, linear, tangent, free, x, indefinite, error);
   if (status != VSC_OK) return status;
   for (size_t k = 0; k < count; k++) {
     kept->change[k] = kept->defect[k] - product(model, free, kept->flux + k * all, d);

@@ -6,7 +6,7 @@
 //   A d - sum_l dp_l g_l = r + sum_l p_l g_l,  g_k . d = V_k - v_k:
 //   A d_0 = r + sum p_l g_l,  A z_k = g_k,  sum_l (g_k . z_l) dp_l = V_k - v_k - g_k . d_0,  d = d_0 + sum dp_k z_k.
 // In implicit steps forces balance at a moment within the step, whose g_k push, and volumes are kept at the step's end,
-// whose g_k change them. A volume costs one more solution with A in each iteration, and 12 numbers a node. A by itself
+// whose g_k change them. A volume costs up to one more solution with A in each iteration, and 12 numbers a node. A by itself
 // must be positive definite: a body that its kept volume alone holds up is not found.
 #ifndef VSC_SOLVE_KEPT_BALANCE_H
 #define VSC_SOLVE_KEPT_BALANCE_H
@@ -25,7 +25,8 @@ typedef struct vsc_kept_balance {
   double *defect;    // count: V_k - v_k, or what else g_k . d has to be, mm^3; owned
   double *push;      // count x node_count x 4: g_k where forces balance, mm^2; owned
   double *flux;      // count x node_count x 4: g_k where volumes are kept; owned
-  double *answer;    // count x node_count x 4: z_k; owned
+  double *answer;    // count x node_count x 4: z_k, from which the next solution starts; owned
+  double *rest;      // 2 x node_count x 4: memory of vsc_kept_solve; owned
   double *small;     // count x count: g_k . z_l; owned
 } vsc_kept_balance;
 
@@ -34,6 +35,9 @@ typedef struct vsc_kept_balance {
 vsc_status vsc_kept_create(const vsc_model *model, vsc_kept_balance **kept, vsc_error *error);
 
 void vsc_kept_free(vsc_kept_balance *kept);  // NULL is fine
+
+// Forgets what solutions start from, which a restart would not know.
+void vsc_kept_forget(vsc_kept_balance *kept);
 
 // Pressures from the state, and back.
 void vsc_kept_take(vsc_kept_balance *kept, const vsc_state *state);

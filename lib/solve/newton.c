@@ -116,6 +116,7 @@ static double whole_norm(const vsc_model *model, const double *r)
 
 void vsc_newton_begin(vsc_newton *newton, const double *force)
 {
+  vsc_kept_forget(newton->kept);
   newton->scale = whole_norm(newton->model, force);
   newton->floor = 0;
 }
