@@ -203,7 +203,7 @@ static const vsc_row vsc_scene_group_rows[] = {
      .meaning = "linear tets alone; or smoothed: laws see the mean strain round each edge (walls of two "
                 "layers and more)"},
     {"keep_volume", CHOICE(vsc_scene, definition.kept_volume, kept_volumes), .text = "none",
-     .meaning = "to rounding, by multipliers: total, region (each material), node, element"},
+     .meaning = "to rounding, by multipliers: total, region (each material); node, element (explicit)"},
     {"masses", CHOICE(vsc_scene, definition.masses, mass_kinds), .text = "lumped",
      .meaning = "of the nodes; or voronoi: of what is nearest; equal: all alike; consistent (solve: implicit)"},
     {"membranes", SCENE_PARTS(membranes, membrane_count, vsc_membrane_group), .commented = true,
