@@ -192,8 +192,8 @@ static void pressures_do_not_swing_from_step_to_step(void **state)
   body_close(&body);
 }
 
-// With one thread or three, and from a copy of what a checkpoint holds: the same bits; with consistent masses, of a body that moves at
-// the start.
+// With one thread or three, and from a copy of what a checkpoint holds: the same bits; with consistent masses, of a
+// body that moves at the start.
 static void threads_and_stops_do_not_change_the_bits(void **state)
 {
   (void)state;

@@ -7,8 +7,8 @@
 #include "model/model.h"
 
 // entries[k] = int rho N_i N_j dV, mg, of each block (i, j) of `pattern`, which stands for that number
-// times the unit matrix; owned by the caller. Of triangles of membranes thickness times int rho N_i N_j dA. Exact for straight tets, quadratic ones too; other kinds are integrated at the
-// points of their frames. False when memory is short.
+// times the unit matrix; owned by the caller. Exact for straight tets, quadratic ones too; other kinds are integrated at
+// the points of their frames. Triangles of membranes give thickness times int rho N_i N_j dA. False when memory is short.
 bool vsc_mass_matrix(const vsc_model *model, const vsc_block_matrix *pattern, double **entries);
 
 #endif

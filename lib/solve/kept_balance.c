@@ -170,8 +170,8 @@ static vsc_status solve_small(double *small, double *right, size_t count, vsc_er
   gsl_set_error_handler(handler);
   for (size_t k = 0; k < count; k++) sound = sound && isfinite(right[k]);
   if (sound) return VSC_OK;
-  return vsc_fail(error, VSC_NUMERICAL, "no pressure can keep all %zu volumes: nothing that could change one of them can move",
-                  count);
+  return vsc_fail(error, VSC_NUMERICAL,
+                  "no pressures can keep all %zu volumes: nothing that could change one of them can move", count);
 }
 
 // z_k = A^-1 g_k, from what it was with a former A: z <- z + A^-1 (g - A z).

@@ -191,15 +191,16 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
 {
   const vsc_model *model = newton->model;
   const double tolerance = model->solve.tolerance;
-  double first = 0, before = 0, forcing = 1;
+  double first = 0, before = 0, forcing = 1, off = 0;
   newton->solutions++;
   newton->indefinite = false;
   for (int k = 0; k <= VSC_MOST_NEWTON; k++) {
     balance->residual(balance->context, x, newton->r);
-    const double norm = free_norm(model, newton->r), off = vsc_kept_look(newton->kept, x);
-    if (k == 0) first = norm;
-    // without loads at rest, a support that moves is all that is at work
-    if (k == 0 && newton->scale == 0) newton->scale = whole_norm(model, newton->r);
+    const double norm = free_norm(model, newton->r);
+    off = vsc_kept_look(newton->kept, x);
+    if (!(first > 0)) first = norm;
+    // without loads at rest, a support that moves or a volume that is off is all that is at work
+    if (newton->scale == 0) newton->scale = whole_norm(model, newton->r);
     const vsc_linear_counts counts = vsc_linear_counted(newton->linear);
     const double relative = newton->scale > 0 ? norm / newton->scale : 0;
     vsc_newton_row row = {time, load, k, relative, 0, 0};
@@ -248,5 +249,6 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
   const double now = newton->rows[newton->row_count - 1].residual;
   snprintf(why, sizeof why, "the residual is %.2g of the forces after %d iterations, not below %.2g", now, *iterations,
            tolerance);
+  if (now <= tolerance) snprintf(why, sizeof why, "a kept volume is off by %.2g of itself", off);
   return fail(newton, error, time, why);
 }

@@ -58,8 +58,8 @@ void vsc_newton_free(vsc_newton *newton);  // NULL is fine
 void vsc_newton_begin(vsc_newton *newton, const double *force);
 
 // Solves from x (node_count x 4), which becomes the solution, to |r| <= tolerance x the scale of
-// forces and kept volumes to VSC_KEPT_BALANCE; newton->kept has their pressures, before and after. `time` and `load` go into the rows. VSC_NUMERICAL, with plain words why, when it does
-// not converge; x is then undefined.
+// forces and kept volumes to VSC_KEPT_BALANCE; newton->kept has their pressures, before and after. `time` and
+// `load` go into the rows. VSC_NUMERICAL, with plain words why, when it does not converge; x is then undefined.
 vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, double time, double load,
                             double *x, int *iterations, vsc_error *error);
 
