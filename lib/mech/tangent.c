@@ -31,7 +31,6 @@ static vsc_status refuse(vsc_error *error, const char *what, const char *remedy)
 
 static vsc_status check(const vsc_model *model, vsc_error *error)
 {
-  if (model->obstacle_count > 0) return refuse(error, "contact with obstacles", "leave out obstacles");
   if (model->kept.count > 0)
     return refuse(error, "keep_volume", "a large volume_modulus instead");
   for (size_t p = 0; p < model->patch_count; p++) {

@@ -8,8 +8,9 @@
 #include "base/mem.h"
 #include "mech/element.h"
 #include "model/free_motions.h"
+#include "solve/incompressible.h"
 
-enum { MOST_HALVINGS = 4 };
+enum { MOST_HALVINGS = 4, MANY = 9 };  // iterations that are many
 // Full steps of a stiffening body overshoot, and come back from far away; not from here.
 #define DIVERGED 1e10
 // Systems with a factor are solved at least this well: what bends forgives little.
@@ -34,6 +35,7 @@ vsc_status vsc_newton_create(const vsc_model *model, vsc_newton **newton, vsc_er
   vsc_status status = vsc_tangent_create(model, &made->tangent, error);
   if (status == VSC_OK)
     status = vsc_linear_create(model, made->tangent, model->solve.linear, &made->linear, error);
+  if (status == VSC_OK) status = vsc_touch_create(model, made->size, &made->touch, error);
   if (status == VSC_OK && (!VSC_NEW(made->r, count) || !VSC_NEW(made->d, count) ||
                            !VSC_NEW(made->trial, count) || !VSC_NEW(made->before, count)))
     status = vsc_fail_memory(error, "Newton's method");
@@ -50,6 +52,7 @@ void vsc_newton_free(vsc_newton *newton)
   if (newton == NULL) return;
   vsc_tangent_free(newton->tangent);
   vsc_linear_free(newton->linear);
+  vsc_touch_free(newton->touch);
   vsc_free(newton->r);
   vsc_free(newton->d);
   vsc_free(newton->trial);
@@ -141,11 +144,13 @@ static void write_row(vsc_newton *newton, const vsc_newton_row *row)
   newton->rows[newton->row_count++] = *row;
 }
 
-// x <- x + d, or half of it, a quarter ... where an element would turn inside out.
-static bool step(vsc_newton *newton, double *x, uint32_t *element)
+// x <- x + d, or half of it, a quarter ... where an element would turn inside out. Nodes that touch obstacles and
+// leave them in turns get half a step now and then.
+static bool step(vsc_newton *newton, int iteration, double *x, uint32_t *element)
 {
   const size_t count = 4 * newton->model->node_count;
-  double part = 1;
+  const bool turns = newton->touch != NULL && iteration >= MANY && iteration % 3 == 0;
+  double part = turns ? 0.5 : 1;
   for (int k = 0; k <= MOST_HALVINGS; k++, part /= 2) {
     for (size_t i = 0; i < count; i++) newton->trial[i] = x[i] + part * newton->d[i];
     if (vsc_smallest_ratio(newton->model, newton->trial, element) <= 0) continue;
@@ -182,8 +187,8 @@ static vsc_status fail(const vsc_newton *newton, vsc_error *error, double time, 
                   vsc_name_node(model, worst, node, sizeof node));
 }
 
-vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, double time, double load,
-                            double *x, int *iterations, vsc_error *error)
+static vsc_status solve(vsc_newton *newton, const vsc_balance *balance, double time, double load, double *x,
+                        int *iterations, vsc_error *error)
 {
   const vsc_model *model = newton->model;
   const double tolerance = model->solve.tolerance;
@@ -192,6 +197,7 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
   newton->indefinite = false;
   for (int k = 0; k <= VSC_MOST_NEWTON; k++) {
     balance->residual(balance->context, x, newton->r);
+    vsc_touch_push(newton->touch, x, newton->r);
     const double norm = free_norm(model, newton->r);
     if (k == 0) first = norm;
     // without loads at rest, a support that moves is all that is at work
@@ -214,6 +220,7 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
                    fmax(0.3 * tolerance / relative, 1e-8));
     before = norm;
     balance->assemble(balance->context, x, k > 0 ? newton->before : NULL, newton->tangent);
+    vsc_touch_tangent(newton->touch, x, newton->tangent);
     memcpy(newton->before, x, 4 * model->node_count * sizeof *x);
     const vsc_status status = vsc_linear_solve(newton->linear, newton->tangent, model->inverse_mass, x,
                                                newton->r, forcing, newton->d, &newton->indefinite, error);
@@ -231,7 +238,7 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
                  : status;
     }
     uint32_t element = 0;
-    if (!step(newton, x, &element)) {
+    if (!step(newton, k, x, &element)) {
       newton->failures++;
       char why[80];
       snprintf(why, sizeof why, "element %u would turn inside out", element);
@@ -244,4 +251,23 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
   snprintf(why, sizeof why, "the residual is %.2g of the forces after %d iterations, not below %.2g", now, *iterations,
            tolerance);
   return fail(newton, error, time, why);
+}
+
+vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, double time, double load, double *x,
+                            int *iterations, vsc_error *error)
+{
+  vsc_touch *touch = newton->touch;
+  if (touch == NULL) return solve(newton, balance, time, load, x, iterations, error);
+  const bool unknown = newton->scale == 0;
+  for (int round = 0; round < VSC_MOST_ROUNDS; round++) {
+    int more;
+    const vsc_status status = solve(newton, balance, time, load, x, &more, error);
+    *iterations = round == 0 ? more : *iterations;
+    if (status != VSC_OK) return status;
+    if (vsc_touch_update(touch, x) && !(unknown && round == 0)) return VSC_OK;
+    // how hard nodes far inside were pushed at first tells nothing of the forces in the end
+    if (unknown && round == 0) newton->scale = whole_norm(newton->model, newton->r);
+    newton->scale = fmax(newton->scale, vsc_touch_norm(touch));
+  }
+  return vsc_touch_fail(touch, x, error);
 }
