@@ -18,7 +18,8 @@ typedef struct scheme {
   double mass_past, force_past;  // m, f
   double A, V;                   // 1/ms^2, 1/ms
   double error;                  // c
-  double push, kick;             // of contact (touch.h): F/R, and what accelerations do not have of R/M
+  double push;                   // of contact (touch.h): F/R, and what accelerations and velocities get of R/M
+  double kick[2];                // beside A x_1 + h_a and V x_1 + h_v; 1, ms
   double lag;                    // ms: of v_1 = V (x_1 - x_0 - dt v_0) + v_0 + lag a_0
 } scheme;
 
@@ -29,7 +30,7 @@ typedef struct stepper {
   double *middle, *velocity, *middle_a;  // where forces balance
   double *next;               // x_1
   double push;                // F/R of contact in the last step (touch.h)
-  double *lag;                // with obstacles and damping: what viscosity is not to see of h_v
+  double *stopped;            // what of a_0 obstacles stop
 } stepper;
 
 static void release(void *solver)
@@ -42,7 +43,7 @@ static void release(void *solver)
   vsc_free(s->velocity);
   vsc_free(s->middle_a);
   vsc_free(s->next);
-  vsc_free(s->lag);
+  vsc_free(s->stopped);
   vsc_free(s);
 }
 
@@ -82,7 +83,7 @@ vsc_status vsc_implicit_start(const vsc_model *model, vsc_state *state, vsc_erro
   if (status == VSC_OK &&
       (!VSC_NEW(s->h_a, count) || !VSC_NEW(s->h_v, count) || !VSC_NEW(s->middle, count) ||
        !VSC_NEW(s->velocity, count) || !VSC_NEW(s->middle_a, count) || !VSC_NEW(s->next, count) ||
-       !VSC_NEW(s->lag, model->obstacle_count > 0 && model->terms.damping ? count : 0)))
+       !VSC_NEW(s->stopped, model->obstacle_count > 0 ? count : 0)))
     status = vsc_fail_memory(error, "implicit steps");
   if (status != VSC_OK) {
     release(s);
@@ -120,7 +121,7 @@ static scheme prepare(const vsc_model *model, const vsc_state *state, stepper *s
     const double ratio = state->former_step > 0 ? dt / state->former_step : 0;
     const double first = (1 + 2 * ratio) / (1 + ratio), second = 1 + ratio;
     const double third = ratio * ratio / (1 + ratio);
-    const scheme bdf = {.A = first * first / (dt * dt), .V = first / dt, .error = 2.0 / 9, .push = 1};
+    const scheme bdf = {.A = first * first / (dt * dt), .V = first / dt, .error = 2.0 / 9};
     for (size_t i = 0; i < count; i++) {
       s->h_v[i] = (third * state->former_x[i] - second * state->x[i]) / dt;
       const double past = (third * state->former_v[i] - second * state->v[i]) / dt;
@@ -133,8 +134,8 @@ static scheme prepare(const vsc_model *model, const vsc_state *state, stepper *s
   const double f = damped ? def->rho / (def->rho + 1) : 0;
   const double gamma = 0.5 - m + f, beta = 0.25 * (1 - m + f) * (1 - m + f);
   const scheme newmark = {.mass_past = m, .force_past = f, .A = 1 / (beta * dt * dt),
-                          .V = gamma / (beta * dt), .error = fabs(beta - 1.0 / 6), .push = gamma / (1 - m),
-                          .kick = 1 / (1 - m), .lag = dt * (1 - gamma / (2 * beta))};
+                          .V = gamma / (beta * dt), .error = fabs(beta - 1.0 / 6), .push = 2 * beta / (1 - m),
+                          .kick = {-1 / (1 - m), dt * (2 * beta - gamma) / (1 - m)}, .lag = dt * (1 - gamma / (2 * beta))};
   for (size_t i = 0; i < count; i++) {
     const double a0 = state->a[i], v0 = state->v[i];
     s->h_a[i] = -newmark.A * (state->x[i] + dt * v0) - (0.5 / beta - 1) * a0;
@@ -154,7 +155,9 @@ static void residual(void *context, const double *x, double *r)
     p->s->middle[i] = part * x[i] + c->force_past * state->x[i];
     p->s->velocity[i] = part * (c->V * x[i] + p->s->h_v[i]) + c->force_past * state->v[i];
   }
-  for (size_t i = 0; p->s->lag != NULL && i < 4 * p->model->node_count; i++) p->s->velocity[i] -= part * p->s->lag[i];
+  // what rests on an obstacle has a_0, but is not to rub by it
+  for (size_t i = 0; p->model->obstacle_count > 0 && i < 4 * p->model->node_count; i++)
+    p->s->velocity[i] -= part * c->lag * p->s->stopped[i];
   vsc_force(p->model, p->s->middle, p->s->velocity, p->time, &p->state->scratch, r);
   double *a = p->s->middle_a;
   for (size_t i = 0; i < 4 * p->model->node_count; i++)
@@ -180,24 +183,27 @@ static void assemble(void *context, const double *x, const double *before, vsc_t
 }
 
 // Where the state leads, unless that turns an element inside out.
-static void predict(const vsc_model *model, const vsc_state *state, double dt, vsc_touch *touch, double *x)
+static void predict(const vsc_model *model, const vsc_state *state, double dt, stepper *s)
 {
+  double *x = s->next;
   uint32_t element;
   for (size_t i = 0; i < 4 * model->node_count; i++)
     x[i] = state->x[i] +
            (model->inverse_mass[i] != 0 ? dt * (state->v[i] + 0.5 * dt * state->a[i]) : 0);
-  vsc_touch_put_out(touch, x);
+  for (size_t i = 0; model->obstacle_count > 0 && i < 4 * model->node_count; i++)
+    x[i] -= 0.5 * dt * dt * s->stopped[i];
+  vsc_touch_put_out(s->newton->touch, x);
   if (vsc_smallest_ratio(model, x, &element) <= 0)
     memcpy(x, state->x, 4 * model->node_count * sizeof *x);
   vsc_supports_place(model, state->time + dt, 1, x);
 }
 
-// Into middle_a: a_1, without what contact has no part in.
+// Into middle_a: a_1.
 static void end_acceleration(const step *p)
 {
   for (size_t i = 0; i < 4 * p->model->node_count; i++)
     p->s->middle_a[i] = p->scheme.A * p->s->next[i] + p->s->h_a[i];
-  vsc_touch_free_acceleration(p->s->newton->touch, p->s->next, p->scheme.kick, p->s->middle_a);
+  vsc_touch_kick(p->s->newton->touch, p->s->next, p->scheme.kick[0], p->s->middle_a);
 }
 
 // c dt^2 rms |a_1 - a_0|, mm; without what goes into obstacles, which is not free to be off. Overwrites `velocity`.
@@ -229,7 +235,8 @@ static void accept(const step *p, double dt)
     state->x[i] = p->s->next[i];
   }
   if (remembers) state->former_step = dt;
-  else vsc_touch_stop(p->s->newton->touch, state, dt);
+  vsc_touch_kick(p->s->newton->touch, state->x, p->scheme.kick[1], state->v);
+  vsc_touch_stop(p->s->newton->touch, state, dt);
 }
 
 // What supports that move have done in the step of dt that has led to the state: f - M a is what their own
@@ -253,8 +260,8 @@ static vsc_status do_step(const vsc_model *model, vsc_state *state, double dt, d
   const vsc_balance balance = {&p, residual, assemble};
   vsc_touch_begin(s->newton->touch, state, state->time + dt, 1 - p.scheme.force_past,
                   (1 - p.scheme.mass_past) * p.scheme.A);
-  if (s->lag != NULL) vsc_touch_part(s->newton->touch, state, p.scheme.lag, state->a, s->lag);
-  predict(model, state, dt, s->newton->touch, s->next);
+  vsc_touch_part(s->newton->touch, state, state->a, s->stopped);
+  predict(model, state, dt, s);
   int iterations;
   *done = false;
   const vsc_status status =

@@ -10,7 +10,7 @@
 #include "model/free_motions.h"
 #include "solve/incompressible.h"
 
-enum { MOST_HALVINGS = 4, MANY = 9 };  // iterations that are many
+enum { MOST_HALVINGS = 4, MANY = 9, WHY = 160 };
 // Full steps of a stiffening body overshoot, and come back from far away; not from here.
 #define DIVERGED 1e10
 // Systems with a factor are solved at least this well: what bends forgives little.
@@ -144,16 +144,22 @@ static void write_row(vsc_newton *newton, const vsc_newton_row *row)
   newton->rows[newton->row_count++] = *row;
 }
 
-// x <- x + d, or half of it, a quarter ... where an element would turn inside out. Nodes that touch obstacles and
-// leave them in turns get half a step now and then.
-static bool step(vsc_newton *newton, int iteration, double *x, uint32_t *element)
+// x <- x + d, or half of it, a quarter ... where an element would turn inside out or a node go through an obstacle; why,
+// when that does not help. After MANY iterations nodes may be touching obstacles and leaving them in turns, which a half
+// step now and then ends.
+static bool step(vsc_newton *newton, int iteration, double *x, char why[WHY])
 {
   const size_t count = 4 * newton->model->node_count;
   const bool turns = newton->touch != NULL && iteration >= MANY && iteration % 3 == 0;
   double part = turns ? 0.5 : 1;
+  uint32_t element = 0;
   for (int k = 0; k <= MOST_HALVINGS; k++, part /= 2) {
     for (size_t i = 0; i < count; i++) newton->trial[i] = x[i] + part * newton->d[i];
-    if (vsc_smallest_ratio(newton->model, newton->trial, element) <= 0) continue;
+    if (vsc_smallest_ratio(newton->model, newton->trial, &element) <= 0) {
+      snprintf(why, WHY, "element %u would turn inside out", element);
+      continue;
+    }
+    if (vsc_touch_goes_through(newton->touch, x, newton->trial, why, WHY)) continue;
     memcpy(x, newton->trial, count * sizeof *x);
     return true;
   }
@@ -237,18 +243,16 @@ static vsc_status solve(vsc_newton *newton, const vsc_balance *balance, double t
                                             "large an increment)")
                  : status;
     }
-    uint32_t element = 0;
-    if (!step(newton, k, x, &element)) {
+    char why[WHY];
+    if (!step(newton, k, x, why)) {
       newton->failures++;
-      char why[80];
-      snprintf(why, sizeof why, "element %u would turn inside out", element);
       return fail(newton, error, time, why);
     }
   }
   newton->failures++;
-  char why[100];
+  char why[WHY];
   const double now = newton->rows[newton->row_count - 1].residual;
-  snprintf(why, sizeof why, "the residual is %.2g of the forces after %d iterations, not below %.2g", now, *iterations,
+  snprintf(why, WHY, "the residual is %.2g of the forces after %d iterations, not below %.2g", now, *iterations,
            tolerance);
   return fail(newton, error, time, why);
 }

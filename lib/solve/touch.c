@@ -2,6 +2,7 @@
 #include "solve/touch.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/mem.h"
@@ -139,6 +140,43 @@ void vsc_touch_tangent(const vsc_touch *touch, const double *x, vsc_tangent *tan
   visit_all(touch, x, touch->time, stiffen, &(stiffening){touch, tangent});
 }
 
+typedef struct passage {
+  const double *x, *next;  // node_count x 4
+  const vsc_touch *touch;
+  bool found;
+  contact at;
+} passage;
+
+// The point of the way nearest to the centre is at the part s = -(x - c) . w/|w|^2 of the way w.
+static void find_passage(void *context, const contact *c)
+{
+  passage *p = context;
+  const vsc_obstacle *obstacle = &p->touch->model->obstacles[c->obstacle];
+  double from[3], way[3];
+  if (p->found || obstacle->kind != VSC_OBSTACLE_SPHERE) return;
+  for (int i = 0; i < 3; i++) {
+    from[i] = (c->gap + obstacle->radius) * c->normal[i];
+    way[i] = p->next[4 * (size_t)c->node + (size_t)i] - p->x[4 * (size_t)c->node + (size_t)i];
+  }
+  const double square = vsc_dot(way, way);
+  const double part = square > 0 ? fmin(fmax(-vsc_dot(from, way) / square, 0), 1) : 0;
+  for (int i = 0; i < 3; i++) from[i] += part * way[i];
+  p->found = vsc_norm(from) < 0.5 * obstacle->radius;
+  p->at = *c;
+}
+
+bool vsc_touch_goes_through(const vsc_touch *touch, const double *x, const double *next, char *what, size_t size)
+{
+  passage p = {.touch = touch, .x = x, .next = next};
+  char node[VSC_NODE_TEXT];
+  if (touch == NULL) return false;
+  visit_all(touch, x, touch->time, find_passage, &p);
+  if (p.found)
+    snprintf(what, size, "%s, would go through obstacles[%zu]",
+             vsc_name_node(touch->model, p.at.node, node, sizeof node), p.at.obstacle);
+  return p.found;
+}
+
 // ---- multipliers
 
 typedef struct worst {
@@ -256,44 +294,55 @@ void vsc_touch_put_out(vsc_touch *touch, double *x)
   visit_all(touch, x, touch->time, put_out, &(stepping){.touch = touch, .vector = x});
 }
 
+// The part of `vector` along what is free of the normal, n_f: (v . n_f) n_f/|n_f|^2.
+static void part_along(const stepping *s, const contact *c, const double *vector, double part[3])
+{
+  const double *inverse = s->touch->model->inverse_mass + 4 * (size_t)c->node;
+  double along = 0;
+  for (int i = 0; i < 3; i++)
+    if (inverse[i] != 0) along += vector[i] * c->normal[i] / c->free;
+  for (int i = 0; i < 3; i++) part[i] = inverse[i] != 0 ? along * c->normal[i] : 0;
+}
+
 static void take_part(void *context, const contact *c)
 {
   const stepping *s = context;
-  if (!(s->state->touch[c->pair] > 0)) return;
   const size_t at = 4 * (size_t)c->node;
-  const double along = s->factor * vsc_dot(s->x + at, c->normal);
-  for (size_t i = 0; i < 3; i++) s->vector[at + i] = along * c->normal[i];
+  double part[3];
+  if (!(s->state->touch[c->pair] > 0)) return;
+  part_along(s, c, s->x + at, part);
+  for (size_t i = 0; i < 3; i++) s->vector[at + i] += part[i];
 }
 
-void vsc_touch_part(const vsc_touch *touch, vsc_state *state, double factor, const double *vector, double *part)
+void vsc_touch_part(const vsc_touch *touch, vsc_state *state, const double *vector, double *part)
 {
   if (touch == NULL) return;
-  stepping s = {.touch = touch, .state = state, .x = vector, .vector = part, .factor = factor};
+  stepping s = {.touch = touch, .state = state, .x = vector, .vector = part};
   memset(part, 0, 4 * touch->model->node_count * sizeof *part);
   visit_all(touch, state->x, state->time, take_part, &s);
 }
 
-static void free_acceleration(void *context, const contact *c)
+static void kick(void *context, const contact *c)
 {
   const stepping *s = context;
   const size_t at = 4 * (size_t)c->node;
-  const double push = s->factor * s->touch->force[c->pair];
-  for (size_t i = 0; i < 3; i++) s->vector[at + i] -= push * s->touch->model->inverse_mass[at + i] * c->normal[i];
+  const double R = s->factor * s->touch->force[c->pair];
+  for (size_t i = 0; i < 3; i++) s->vector[at + i] += R * s->touch->model->inverse_mass[at + i] * c->normal[i];
 }
 
-void vsc_touch_free_acceleration(const vsc_touch *touch, const double *x, double kick, double *a)
+void vsc_touch_kick(const vsc_touch *touch, const double *x, double factor, double *vector)
 {
   if (touch == NULL) return;
-  visit_all(touch, x, touch->time, free_acceleration, &(stepping){.touch = touch, .vector = a, .factor = kick});
+  visit_all(touch, x, touch->time, kick, &(stepping){.touch = touch, .vector = vector, .factor = factor});
 }
 
 static void strike(void *context, const contact *c)
 {
   const stepping *s = context;
-  double *vector = s->vector + 4 * (size_t)c->node;
+  double *vector = s->vector + 4 * (size_t)c->node, part[3];
   if (!(s->touch->force[c->pair] > 0)) return;
-  const double along = vsc_dot(vector, c->normal);
-  for (int i = 0; i < 3; i++) vector[i] -= along * c->normal[i];
+  part_along(s, c, vector, part);
+  for (int i = 0; i < 3; i++) vector[i] -= part[i];
 }
 
 void vsc_touch_strike(const vsc_touch *touch, const double *x, double *vector)
@@ -336,7 +385,6 @@ void vsc_touch_reckon_step(const vsc_touch *touch, vsc_state *state, const doubl
   stepping s = {.touch = touch, .state = state, .x = x, .factor = push, .dt = dt};
   for (size_t o = 0; o < touch->model->obstacle_count; o++) find_way(touch, o, dt, s.way[o]);
   visit_all(touch, x, touch->time, reckon, &s);
-  keep(touch, state);
 }
 
 static void stop(void *context, const contact *c)
@@ -349,13 +397,15 @@ static void stop(void *context, const contact *c)
   const double *speed = s->way[c->obstacle];
   double *v = s->state->v + at, slip[3];
   vsc_subtract(v, speed, slip);
+  // a node that was stopped before has not hit the obstacle: the scheme has made its slip
+  const bool hits = !(s->state->touch[c->pair] > 0);
   const double away = vsc_dot(slip, c->normal) / c->free;
   for (size_t i = 0; i < 3; i++) {
     if (model->inverse_mass[at + i] == 0) continue;
     const double change = -away * c->normal[i], impulse = model->mass[c->node] * change;
     sums->impulse[i] += impulse;
     sums->work += impulse * speed[i];
-    sums->lost += impulse * (speed[i] - v[i] - 0.5 * change);
+    if (hits) sums->lost += impulse * (speed[i] - v[i] - 0.5 * change);
     v[i] += change;
   }
 }
@@ -371,4 +421,5 @@ void vsc_touch_stop(const vsc_touch *touch, vsc_state *state, double dt)
     for (int i = 0; i < 3; i++) s.way[o][i] = rate * obstacle->motion[i];
   }
   visit_all(touch, state->x, touch->time, stop, &s);
+  keep(touch, state);
 }

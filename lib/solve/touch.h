@@ -13,14 +13,14 @@
 // each node with t > 0 is below 1e-8 of the body's size. k is 30 times what the node resists by itself, and ten times
 // more from round to round where depths do not fall to a quarter: so the solution does not depend on it.
 //
-// Implicit steps: obstacles act on x_1, with x_1 outside of them, as the impulse dt F over the step (Kane, Repetto, Ortiz
-// & Marsden 1999): velocities get it, accelerations never have it. With R what balances forces in solve/implicit.h,
+// Implicit steps (not BDF2, whose past an impact would come back from): obstacles act on x_1, so that it is outside of
+// them, as the impulse dt F over the step; velocities get it, accelerations never have it (Kane, Repetto, Ortiz & Marsden
+// 1999). With R = t n beside the forces f of solve/implicit.h,
 //   M [(1 - m) (A x_1 + h_a) + m a_0] = f + R,  M a_1 = M (A x_1 + h_a) - R/(1 - m),  F = gamma R/(1 - m).
-// A node that is touched then has its obstacle's velocity along n: no node bounces by itself, and resting nodes do not
-// chatter. For the trapezoid F does the work F . (x_1 - x_0) <= F . (way of the obstacle) on a body at a plane, and the
-// stop takes energy, too: contact never gives any. (Forces that balance at x_1 and stay in a_1 make resting nodes swing
-// with the step, and put back in the next step what an impact has taken.) Of BDF2, whose past are velocities, F = R is
-// a force as any other, and damps itself out.
+// Then a node that is touched gets its obstacle's velocity along n, so that no node bounces by itself, and none that rests
+// swings with the steps. Of the trapezoid's energy F takes F . ((p - p_0) - (x_1 - x_0)) beside what the obstacle's way
+// p - p_0 gives, which at a plane is never below 0, and the stop takes more: contact makes none. Were R an ordinary force
+// at x_1, nodes that rest would swing for ever, and an impact would give back in the next step what it has taken.
 #ifndef VSC_SOLVE_TOUCH_H
 #define VSC_SOLVE_TOUCH_H
 
@@ -58,6 +58,10 @@ void vsc_touch_push(vsc_touch *touch, const double *x, double *r);
 // Adds its tangent at x to that of the balance.
 void vsc_touch_tangent(const vsc_touch *touch, const double *x, vsc_tangent *tangent);
 
+// Whether a node goes through a sphere on its straight way from x to `next` (node_count x 4): nearer to the centre than
+// half the radius, from where it might be put out on the other side. Writes then into `what` (of `size` bytes) which.
+bool vsc_touch_goes_through(const vsc_touch *touch, const double *x, const double *next, char *what, size_t size);
+
 // l <- t, at a solution x. Returns whether depths are small enough.
 bool vsc_touch_update(vsc_touch *touch, const double *x);
 
@@ -77,23 +81,23 @@ void vsc_touch_reckon(const vsc_touch *touch, vsc_state *state, double dt);
 // Puts nodes of x (node_count x 4) that are inside an obstacle onto its surface.
 void vsc_touch_put_out(vsc_touch *touch, double *x);
 
-// Fills `part` (node_count x 4) with factor times the part of `vector` (likewise) along n of nodes that were touched
-// when the state was accepted, and 0.
-void vsc_touch_part(const vsc_touch *touch, vsc_state *state, double factor, const double *vector, double *part);
+// Fills `part` (node_count x 4) with the part of `vector` (likewise) along n of nodes that were touched when the state
+// was accepted, and 0.
+void vsc_touch_part(const vsc_touch *touch, vsc_state *state, const double *vector, double *part);
 
-// What of the accelerations `a` (node_count x 4) is not to be had at the step's end x: takes R/(1 - m), `kick` R, from M a.
-void vsc_touch_free_acceleration(const vsc_touch *touch, const double *x, double kick, double *a);
+// Adds factor R/M of nodes that are touched at x to `vector` (node_count x 4).
+void vsc_touch_kick(const vsc_touch *touch, const double *x, double factor, double *vector);
 
 // Takes from `vector` (node_count x 4) what is along n of nodes that are touched at x.
 void vsc_touch_strike(const vsc_touch *touch, const double *x, double *vector);
 
-// To be called before the positions x of a step of dt (ms) are accepted: keeps the multipliers in the state, and adds
-// what obstacles do with F = push t n,
+// To be called before the positions x of a step of dt (ms) are accepted: adds what obstacles do with F = push t n,
 //   impulse dt F,  work F . (p - p_0),  of which F . ((p - p_0) - (x - x_0)) is lost.
 void vsc_touch_reckon_step(const vsc_touch *touch, vsc_state *state, const double *x, double dt, double push);
 
 // To be called when the step is accepted: nodes that are touched get the obstacle's velocity s along n, by the impulse
-// J = m (s - v) n, whose work is J . s and of which m (s - v)^2/2 is lost.
+// J = m (s - v) n, whose work is J . s and of which m (s - v)^2/2 is lost where the node was not touched before. Keeps
+// the multipliers in the state.
 void vsc_touch_stop(const vsc_touch *touch, vsc_state *state, double dt);
 
 // Adds push t n to `force` (node_count x 4, mN) at x.
