@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contact where forces balance: its force and tangent, closed forms of pressed bodies, equilibria against explicit
 // steps, and implicit steps that neither gain energy nor chatter.
-#include <stdio.h>
 #include "base/vec3.h"
 #include "mech/tangent.h"
 #include "small_body.h"
 #include "solve/implicit.h"
 #include "solve/solve.h"
 #include "solve/touch.h"
+#include "tools/shapes_block.h"
 
-
+static const double GRAVITY = 9.81e-3;  // mm/ms^2
 
 static vsc_obstacle_def plane(double z, double up)
 {
@@ -243,65 +243,281 @@ static void open_palpation(small_body *body, vsc_obstacle_def things[2], double 
   for (int a = 0; a < 3; a++) body->material.damping[a] = 20;
 }
 
-void settles(void **state);
-void settles(void **state)
+// Depth of an obstacle's or a node's sums: the ball comes down by a fifth of the height at once and in ten increments.
+// Depths stay below 1e-8 of the body's diagonal of 7 mm; all that is pushed touches; what the ball does the table feels
+// (the residual is 1e-10 of the forces); both ways end in the same, and in ten increments the work, a trapezoidal sum of
+// what grows like a power of the way, is the stored energy to a per cent.
+static void a_ball_presses_a_fifth_of_the_height(void **state)
 {
   (void)state;
-  static double x[3][4 * 200], force[3];
-  const vsc_solve_kind kinds[3] = {VSC_SOLVE_EQUILIBRIUM, VSC_SOLVE_IMPLICIT, VSC_SOLVE_EXPLICIT};
-  for (int k = 0; k < 3; k++) {
-    small_body body;
-    vsc_obstacle_def things[2];
-    open_palpation(&body, things, 0.8, kinds[k]);
-    body_build(&body);
-    advance(&body, 100);
-    printf("steps %g\n", body.state->steps);
-    advance(&body, 350);
-    const double before = body.state->contact[1].impulse[2];
-    printf("steps %g\n", body.state->steps);
-    advance(&body, 400);
-    printf("steps %g table %g ball %g work %g lost %g\n", body.state->steps, body.state->contact[0].impulse[2], body.state->contact[1].impulse[2], body.state->contact[1].work, body.state->contact[0].lost + body.state->contact[1].lost);
-    force[k] = (body.state->contact[1].impulse[2] - before) / 50;
-    memcpy(x[k], body.state->x, body.model->node_count * 32);
-    double most = 0;
-    for (size_t i = 0; i < 4 * body.model->node_count; i++) most = fmax(most, fabs(x[k][i] - x[0][i]));
-    printf("%d: force %.10g off %g\n", k, force[k], most);
-    body_close(&body);
-  }
-}
-
-static void rests(void **state)
-{
-  (void)state;
-  for (int b = 0; b < 2; b++)
-  for (int d = 0; d < 3; d++) for (int k = 0; k < 5; k++) {
+  double force[2];
+  for (int way = 0; way < 2; way++) {
     small_body body;
     vsc_obstacle_def things[2];
     vsc_ledger *ledger;
     vsc_totals t;
-    open_palpation(&body, things, 0.8, VSC_SOLVE_IMPLICIT);
-    if (b == 0) { things[1] = plane(4, -1); move(&things[1], -0.8, 100); }
-    for (int a = 0; a < 3; a++) body.material.damping[a] = d == 0 ? 0 : d == 1 ? 2 : 20;
-    body.definition.step = (double[]){0.5, 2, 0, 0.5, 2}[k];
-    if (k >= 3) body.definition.solve.scheme = VSC_SCHEME_TRAPEZOID;
+    double furthest;
+    open_palpation(&body, things, 0.8, VSC_SOLVE_EQUILIBRIUM);
     body_build(&body);
     assert_int_equal(vsc_ledger_create(body.model, &ledger, NULL), VSC_OK);
+    for (int part = way == 0 ? 10 : 1; part <= 10; part++) advance(&body, 10 * part);
+    assert_true(deepest(&body, &furthest) > -7e-8);
+    assert_true(furthest < 7e-8);
+    force[way] = body.state->contact[1].force[2];
+    for (int i = 2; i < 3; i++)
+      assert_close(body.state->contact[0].force[i], -body.state->contact[1].force[i], 1e-9, 0);
     vsc_observe(body.model, body.state, ledger, false, &t);
-    double before = 0, vmax = 0, bal = 0, lostmin = 0;
-    for (int row = 1; row <= 100; row++) {
-      advance(&body, 2 * row);
-      vsc_observe(body.model, body.state, ledger, false, &t);
-      bal = fmax(bal, fabs(vsc_balance_error(ledger, &t)));
-      lostmin = fmin(lostmin, t.contact_lost);
-      if (row % 10 == 0) { printf(" %.6g", -(body.state->contact[1].impulse[2] - before) / 20);
-      before = body.state->contact[1].impulse[2]; }
-      vmax = 0; for (size_t i = 0; i < 4*body.model->node_count; i++) vmax = fmax(vmax, fabs(body.state->v[i]));
-    }
-    printf("\n%s damp %d step %d: steps %g lost %g min %g vmax %g work %g diss %g balance %g ",b?"ball":"plane", d, k, body.state->steps, t.contact_lost, lostmin, vmax, t.contact_work, ledger->dissipated, bal);
-    printf("rej %g fail %g its/step %g\n", vsc_implicit_counted(body.state).rejected,  vsc_implicit_counted(body.state).failed, vsc_implicit_newton(body.state)->iterations / body.state->steps);
+    assert_true(t.contact_lost == 0);
+    if (way == 1) assert_close(t.contact_work, t.axial + t.angular + t.volume_energy, 1e-2, 0);
     vsc_ledger_free(ledger);
     body_close(&body);
   }
+  assert_close(force[0], -25.643, 1e-4, 0);
+  assert_close(force[1], force[0], 1e-6, 0);  // depths of 1e-8 of 7 mm are 1e-7 of the way
+}
+
+// What a table bears of a block that lies on it is its weight, to the residual.
+static void a_table_bears_the_weight(void **state)
+{
+  (void)state;
+  small_body body;
+  vsc_obstacle_def table = plane(0, 1);
+  open_block(&body, 4, 0.2, VSC_SOLVE_EQUILIBRIUM, &table, 1);
+  body.definition.gravity[2] = -GRAVITY;
+  body_build(&body);
+  advance(&body, 100);
+  assert_close(body.state->contact[0].force[2], 64 * GRAVITY, 1e-9, 0);
+  assert_true(body.state->contact[0].work == 0);
+  body_close(&body);
+}
+
+// Explicit steps, implicit ones and an equilibrium end in the same place: strain rates and what is left of motion are
+// gone after 200 ms, and tangents of the explicit end have depths of rounding.
+static void all_methods_end_in_the_same(void **state)
+{
+  (void)state;
+  const vsc_solve_kind kinds[3] = {VSC_SOLVE_EQUILIBRIUM, VSC_SOLVE_IMPLICIT, VSC_SOLVE_EXPLICIT};
+  double *x = NULL;
+  for (int k = 0; k < 3; k++) {
+    small_body body;
+    vsc_obstacle_def things[2];
+    open_palpation(&body, things, 0.8, kinds[k]);
+    body.definition.step = kinds[k] == VSC_SOLVE_IMPLICIT ? 2 : 0;
+    body_build(&body);
+    advance(&body, 200);
+    const size_t count = 4 * body.model->node_count;
+    if (k == 0) x = malloc(count * sizeof *x);
+    if (k == 0) memcpy(x, body.state->x, count * sizeof *x);
+    for (size_t i = 0; i < count; i++) assert_close(body.state->x[i], x[i], 0, 1e-6);
+    body_close(&body);
+  }
+  free(x);
+}
+
+// Force of a ball of R = 10 mm pressed by d = 0.1 mm into a block whose quarter is 60 mm long, wide and high, of n x n x
+// n hexahedra that become finer towards the contact, over Hertz's
+//   F = 4/3 E/(1 - nu^2) sqrt(R) d^1.5   (contact radius sqrt(R d) = 1 mm).
+static double hertz(size_t n)
+{
+  const double L = 60, G = 12, K = 20, nu = (3 * K - 2 * G) / (2 * (3 * K + G)), E = 2 * G * (1 + nu);
+  const vsc_block_shape shape = {.cells = {n, n, n}, .size = {(double)n, (double)n, (double)n},
+                                 .tets_per_cell = 6};
+  vsc_mesh *mesh;
+  vsc_error error;
+  if (vsc_block_of(&shape, VSC_BLOCK_HEXES, &mesh, &error) != VSC_OK) fail_msg("%s", error.text);
+  for (size_t i = 0; i < 3 * mesh->node_count; i++) {
+    const double part = mesh->nodes[i] / (double)n;
+    mesh->nodes[i] = i % 3 < 2 ? L * pow(part, 3) : L - L * pow(1 - part, 3);
+  }
+  small_body body;
+  vsc_obstacle_def thing = ball(0, 0, L + 10, 10);
+  body_open(&body, mesh, K);
+  body.material.law = VSC_LAW_NEO_HOOKEAN;
+  body.material.shear = G;
+  body.material.isochoric = true;
+  body_hold(&body, "x0", 1, 0, 0);
+  body_hold(&body, "y0", 0, 1, 0);
+  body_hold(&body, "z0", 0, 0, 1);
+  move(&thing, -0.1, 100);
+  body.definition.obstacles = &thing;
+  body.definition.obstacle_count = 1;
+  body.definition.solve.kind = VSC_SOLVE_EQUILIBRIUM;
+  body_build(&body);
+  advance(&body, 100);
+  const double force = -4 * body.state->contact[0].force[2];
+  body_close(&body);
+  return force / (4.0 / 3 * E / (1 - nu * nu) * sqrt(10) * pow(0.1, 1.5));
+}
+
+// With 4 and 9 nodes in contact on a quarter; 1.13 and 1.02 were measured, and 1.009 with n = 14 (16 nodes).
+static void a_ball_on_a_block_comes_near_to_hertz(void **state)
+{
+  (void)state;
+  const double coarse = hertz(6), fine = hertz(10);
+  assert_close(fine, 1, 0.03, 0);
+  assert_true(fabs(fine - 1) < 0.5 * fabs(coarse - 1));
+}
+
+// A small ball that comes from one side to the other in one increment must not leave nodes behind it: the increment
+// becomes shorter, and the end is that of many.
+static void no_node_goes_through_a_ball(void **state)
+{
+  (void)state;
+  double force[2];
+  for (int way = 0; way < 2; way++) {
+    small_body body;
+    vsc_obstacle_def things[2] = {plane(0, 1), ball(0, 0, 4.7, 0.7)};
+    move(&things[1], -1, 100);
+    open_block(&body, 4, 0, VSC_SOLVE_EQUILIBRIUM, things, 2);
+    body_build(&body);
+    for (int part = way == 0 ? 10 : 1; part <= 10; part++) advance(&body, 10 * part);
+    force[way] = body.state->contact[1].force[2];
+    body_close(&body);
+  }
+  assert_true(force[0] < -1);
+  assert_close(force[1], force[0], 1e-6, 0);
+}
+
+// ---- implicit steps
+
+// Kinetic and stored energy.
+static double energy(small_body *body, vsc_ledger *ledger, vsc_totals *t)
+{
+  vsc_observe(body->model, body->state, ledger, false, t);
+  return t->kinetic + t->axial + t->angular + t->volume_energy + t->gravity_energy;
+}
+
+// A block falls 2 mm on a table in steps that are long for its stiffest motions (0.07 ms) and short of the fall (20 ms).
+// It never has more energy than before, but for 1e-8 of that of the fall, to which equations are solved; it comes to
+// rest, and the table bears its weight.
+static void a_dropped_block_gains_nothing_and_comes_to_rest(void **state)
+{
+  (void)state;
+  for (int scheme = 0; scheme < 2; scheme++) {
+    small_body body;
+    vsc_ledger *ledger;
+    vsc_totals t;
+    vsc_obstacle_def table = plane(-2, 1);
+    body_open(&body, block_of(3, 3, 3, 1, 0.2), 50);
+    for (int a = 0; a < 3; a++) body.material.damping[a] = 3;
+    body.definition.obstacles = &table;
+    body.definition.obstacle_count = 1;
+    body.definition.end_time = 1000;
+    body.definition.gravity[2] = -GRAVITY;
+    body.definition.solve.kind = VSC_SOLVE_IMPLICIT;
+    body.definition.solve.scheme = scheme == 0 ? VSC_SCHEME_GENERALIZED_ALPHA : VSC_SCHEME_TRAPEZOID;
+    body.definition.solve.tolerance = 1e-10;
+    body.definition.step = 0.25;
+    body_build(&body);
+    assert_int_equal(vsc_ledger_create(body.model, &ledger, NULL), VSC_OK);
+    const double fall = body.model->total_mass * GRAVITY * 2;
+    double before = energy(&body, ledger, &t);
+    for (double time = 0.5; time <= 150; time += 0.5) {
+      advance(&body, time);
+      const double now = energy(&body, ledger, &t);
+      assert_true(now <= before + 1e-8 * fall);
+      before = now;
+    }
+    assert_true(t.contact_lost > 0.2 * fall);
+    assert_true(t.kinetic < 1e-6 * fall);
+    const double impulse = body.state->contact[0].impulse[2];
+    advance(&body, 160);
+    assert_close((body.state->contact[0].impulse[2] - impulse) / 10, body.model->total_mass * GRAVITY, 1e-3, 0);
+    vsc_ledger_free(ledger);
+    body_close(&body);
+  }
+}
+
+// Force of the ball in rows of 10 ms, and the worst of the balance, both over their largest.
+static void palpate(vsc_solve_kind kind, vsc_scheme scheme, double step, double force[12], double *off)
+{
+  small_body body;
+  vsc_obstacle_def things[2];
+  vsc_ledger *ledger;
+  vsc_totals t;
+  open_palpation(&body, things, 0.8, kind);
+  body.definition.solve.scheme = scheme;
+  body.definition.step = step;
+  body_build(&body);
+  assert_int_equal(vsc_ledger_create(body.model, &ledger, NULL), VSC_OK);
+  energy(&body, ledger, &t);
+  *off = 0;
+  for (int row = 0; row < 120; row++) {
+    const double before = row % 10 == 0 ? -body.state->contact[1].impulse[2] : force[row / 10];
+    advance(&body, row + 1);
+    energy(&body, ledger, &t);
+    *off = fmax(*off, fabs(vsc_balance_error(ledger, &t)));
+    force[row / 10] = row % 10 < 9 ? before : (-body.state->contact[1].impulse[2] - before) / 10;
+  }
+  *off /= t.contact_work;
+  vsc_ledger_free(ledger);
+  body_close(&body);
+}
+
+// A ball that comes down: the force's course is that of explicit steps, and what the ball works is stored, dissipated or
+// lost. Measured: courses 4e-5 of the largest force off each other, balances 5e-5 and 8e-5.
+static void a_ball_that_comes_down_is_felt_as_in_explicit_steps(void **state)
+{
+  (void)state;
+  double truth[12], force[12], off;
+  palpate(VSC_SOLVE_EXPLICIT, VSC_SCHEME_TRAPEZOID, 0, truth, &off);
+  for (int scheme = 0; scheme < 2; scheme++) {
+    palpate(VSC_SOLVE_IMPLICIT, scheme == 0 ? VSC_SCHEME_GENERALIZED_ALPHA : VSC_SCHEME_TRAPEZOID, 0.5, force, &off);
+    double most = 0;
+    for (int k = 0; k < 12; k++) most = fmax(most, fabs(force[k] - truth[k]) / truth[11]);
+    assert_true(most < 1e-4);
+    assert_true(off < 3e-4);
+  }
+}
+
+// ---- what is refused
+
+static void must_refuse(small_body *body, vsc_status expected, const char *text)
+{
+  vsc_model *model;
+  vsc_error error;
+  assert_int_equal(vsc_model_build(body->mesh, NULL, &body->definition, &model, &error), expected);
+  if (strstr(error.text, text) == NULL) fail_msg("\"%s\" lacks \"%s\"", error.text, text);
+}
+
+static void what_is_not_there_yet_is_refused(void **state)
+{
+  (void)state;
+  small_body body;
+  vsc_obstacle_def table = plane(0, 1);
+  open_block(&body, 1, 0, VSC_SOLVE_EQUILIBRIUM, &table, 1);
+  table.friction = 0.3;
+  must_refuse(&body, VSC_INPUT, "obstacles[0].friction: 0.3: only explicit steps have friction yet; give 0");
+  table.friction = 0;
+  body.definition.solve.method = VSC_STATICS_RELAXATION;
+  must_refuse(&body, VSC_INPUT, "solver.method: relaxation; take newton");
+  body.definition.solve.kind = VSC_SOLVE_IMPLICIT;
+  body.definition.solve.scheme = VSC_SCHEME_BDF2;
+  must_refuse(&body, VSC_INPUT, "solver.scheme: bdf2; take generalized_alpha");
+  body.definition.solve.scheme = VSC_SCHEME_TRAPEZOID;
+  body.definition.masses = VSC_MASS_CONSISTENT;
+  must_refuse(&body, VSC_INPUT, "masses: consistent; take masses: lumped");
+  body_close(&body);
+}
+
+// Planes that stop the same nodes from both sides and come together leave no place for them.
+static void obstacles_that_leave_no_place_are_told(void **state)
+{
+  (void)state;
+  small_body body;
+  vsc_error error;
+  vsc_obstacle_def things[2] = {plane(1, 1), plane(1, -1)};
+  move(&things[1], -0.1, 100);
+  open_block(&body, 1, 0, VSC_SOLVE_EQUILIBRIUM, things, 2);
+  body_hold(&body, "z0", 0, 0, 1);
+  body_hold(&body, "z1", 0, 0, 0);
+  body.definition.support_count--;
+  for (int k = 0; k < 2; k++) vsc_copy_name(things[k].set, "z1");
+  body_build(&body);
+  assert_int_equal(vsc_solve_start(body.model, body.state, &error), VSC_OK);
+  assert_int_equal(vsc_solve_to(body.model, body.state, 100, &error), VSC_NUMERICAL);
+  if (strstr(error.text, "mm inside obstacles[") == NULL) fail_msg("%s", error.text);
+  body_close(&body);
 }
 
 int main(void)
@@ -309,7 +525,15 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(force_is_the_slope_of_an_energy_and_the_tangent_of_the_force),
       cmocka_unit_test(a_block_between_planes_has_its_closed_form),
-      cmocka_unit_test(rests),
+      cmocka_unit_test(a_ball_presses_a_fifth_of_the_height),
+      cmocka_unit_test(a_table_bears_the_weight),
+      cmocka_unit_test(all_methods_end_in_the_same),
+      cmocka_unit_test(a_ball_on_a_block_comes_near_to_hertz),
+      cmocka_unit_test(no_node_goes_through_a_ball),
+      cmocka_unit_test(a_dropped_block_gains_nothing_and_comes_to_rest),
+      cmocka_unit_test(a_ball_that_comes_down_is_felt_as_in_explicit_steps),
+      cmocka_unit_test(what_is_not_there_yet_is_refused),
+      cmocka_unit_test(obstacles_that_leave_no_place_are_told),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -183,10 +183,11 @@ static vsc_status fail(const vsc_newton *newton, vsc_error *error, double time, 
   for (size_t i = 0; i < 4 * model->node_count; i++) out[i] = model->inverse_mass[i] != 0 ? newton->r[i] : 0;
   const size_t worst = vsc_largest_node(model, out);
   for (size_t i = 4 * worst; i < 4 * worst + 3; i++) size += out[i] * out[i];
-  char node[VSC_NODE_TEXT], ways[100], loose[200] = "";
+  char node[VSC_NODE_TEXT], ways[100], loose[240] = "";
   if (vsc_free_motions(model, ways, sizeof ways) > 0)
     snprintf(loose, sizeof loose,
-             "; nothing keeps the body from moving as a whole, it is free to %s: hold it by supports or robin", ways);
+             "; nothing%s keeps the body from moving as a whole, it is free to %s: hold it by supports or robin",
+             model->obstacle_count > 0 ? " but obstacles that it touches" : "", ways);
   return vsc_fail(error, VSC_NUMERICAL,
                   "at %.6g ms no equilibrium was found: %s%s; furthest out of balance, by %.2g mN, is %s; take a smaller "
                   "load or a better mesh there, or solve: explicit", time, why, loose, sqrt(size),

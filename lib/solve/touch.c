@@ -13,7 +13,8 @@
 
 #define PUSH 30.0        // k over what the node resists by itself
 #define RAISE 10.0       // of k where depths fall slowly,
-#define SLOWLY 0.25      // to more than this part
+#define SLOWLY 0.25      // to more than this part,
+#define MOST_RAISE 1e4   // but not to more than that
 #define DEEPEST 1e-8     // of the body's size that is left
 #define TOUCHING 1e-12   // of the body's size: nodes that near are taken to touch until a solution says more
 #define LEAST_FREE 1e-2  // of the normal, below which supports hold a node against the obstacle
@@ -198,7 +199,7 @@ bool vsc_touch_update(vsc_touch *touch, const double *x)
   worst w = {.touch = touch};
   visit_all(touch, x, touch->time, find_worst, &w);
   memcpy(touch->multiplier, touch->force, vsc_state_contacts(touch->model) * sizeof *touch->force);
-  if (w.off > SLOWLY * touch->off) touch->raise *= RAISE;
+  if (w.off > SLOWLY * touch->off) touch->raise = fmin(RAISE * touch->raise, MOST_RAISE);
   const bool settled = w.off <= DEEPEST * touch->size;
   touch->off = settled ? INFINITY : w.off;
   return settled;
@@ -217,8 +218,8 @@ vsc_status vsc_touch_fail(const vsc_touch *touch, const double *x, vsc_error *er
   char node[VSC_NODE_TEXT];
   visit_all(touch, x, touch->time, find_worst, &w);
   return vsc_fail(error, VSC_NUMERICAL,
-                  "at %.6g ms %s, is still %.3g mm %s obstacles[%zu] after %d rounds of multipliers; take a smaller "
-                  "motion of the obstacle, or a better mesh there", touch->time,
+                  "at %.6g ms %s, is still %.3g mm %s obstacles[%zu] after %d rounds of multipliers; give it more room "
+                  "between obstacles and supports, or a smaller motion of the obstacle", touch->time,
                   vsc_name_node(touch->model, w.at.node, node, sizeof node), w.off,
                   w.at.gap < 0 ? "inside" : "off", w.at.obstacle, VSC_MOST_ROUNDS);
 }
