@@ -204,7 +204,7 @@ static vsc_status solve(vsc_newton *newton, const vsc_balance *balance, double t
   newton->indefinite = false;
   for (int k = 0; k <= VSC_MOST_NEWTON; k++) {
     balance->residual(balance->context, x, newton->r);
-    vsc_touch_push(newton->touch, x, newton->r);
+    vsc_touch_push(newton->touch, x, k > 0 ? newton->before : NULL, newton->r);
     const double norm = free_norm(model, newton->r);
     if (k == 0) first = norm;
     // without loads at rest, a support that moves is all that is at work

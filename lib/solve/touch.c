@@ -23,6 +23,7 @@
 typedef struct contact {
   size_t pair, obstacle;
   uint32_t node;
+  double point[3];   // where the obstacle is, mm
   double gap;        // mm
   double normal[3];
   double stiffness;  // k, mN/mm
@@ -39,11 +40,10 @@ static void visit_all(const vsc_touch *touch, const double *x, double time, visi
   contact c = {.pair = 0};
   for (c.obstacle = 0; c.obstacle < model->obstacle_count; c.obstacle++) {
     const vsc_obstacle *obstacle = &model->obstacles[c.obstacle];
-    double point[3];
-    vsc_obstacle_place(obstacle, time, point);
+    vsc_obstacle_place(obstacle, time, c.point);
     for (size_t k = 0; k < obstacle->node_count; k++, c.pair++) {
       c.node = obstacle->nodes[k];
-      c.gap = vsc_obstacle_gap(obstacle, point, x + 4 * (size_t)c.node, c.normal);
+      c.gap = vsc_obstacle_gap(obstacle, c.point, x + 4 * (size_t)c.node, c.normal);
       c.free = 0;
       for (size_t i = 0; i < 3; i++)
         if (model->inverse_mass[4 * (size_t)c.node + i] != 0) c.free += c.normal[i] * c.normal[i];
@@ -92,27 +92,41 @@ void vsc_touch_begin(vsc_touch *touch, const vsc_state *state, double time, doub
   touch->factor[1] = mass_factor;
   touch->raise = 1;
   touch->off = INFINITY;
+  touch->from = state->x;
 }
 
 // ---- one balance
 
 typedef struct pushing {
   vsc_touch *touch;
+  const double *x, *before;
   double *r;
 } pushing;
+
+// g_b + n_b . (x - x_b): the gap as it is seen from the iterate before.
+static double foretold_gap(const pushing *p, const contact *c)
+{
+  const double *before = p->before + 4 * (size_t)c->node;
+  double normal[3], way[3];
+  const double gap = vsc_obstacle_gap(&p->touch->model->obstacles[c->obstacle], c->point, before, normal);
+  vsc_subtract(p->x + 4 * (size_t)c->node, before, way);
+  return gap + vsc_dot(normal, way);
+}
 
 static void push(void *context, const contact *c)
 {
   const pushing *p = context;
-  const double t = fmax(p->touch->multiplier[c->pair] - c->stiffness * c->gap, 0);
+  const double l = p->touch->multiplier[c->pair];
+  const double foretold = l - c->stiffness * (p->before != NULL ? foretold_gap(p, c) : c->gap);
+  const double t = foretold > 0 ? l - c->stiffness * c->gap : 0;
   p->touch->force[c->pair] = t;
   for (size_t i = 0; i < 3; i++) p->r[4 * (size_t)c->node + i] += t * c->normal[i];
 }
 
-void vsc_touch_push(vsc_touch *touch, const double *x, double *r)
+void vsc_touch_push(vsc_touch *touch, const double *x, const double *before, double *r)
 {
   if (touch == NULL) return;
-  visit_all(touch, x, touch->time, push, &(pushing){touch, r});
+  visit_all(touch, x, touch->time, push, &(pushing){touch, x, before != NULL ? before : touch->from, r});
 }
 
 typedef struct stiffening {
@@ -126,7 +140,7 @@ static void stiffen(void *context, const contact *c)
   const vsc_obstacle *obstacle = &s->touch->model->obstacles[c->obstacle];
   const double l = s->touch->multiplier[c->pair];
   double block[9];
-  if (l - c->stiffness * c->gap < -c->stiffness * TOUCHING * s->touch->size) return;
+  if (s->touch->force[c->pair] == 0 && l < c->stiffness * (c->gap - TOUCHING * s->touch->size)) return;
   const double bend = obstacle->kind == VSC_OBSTACLE_SPHERE ? l / (obstacle->radius + c->gap) : 0;
   // k n n^T - l/(r + g) (1 - n n^T)
   for (int r = 0; r < 3; r++)
@@ -182,14 +196,14 @@ bool vsc_touch_goes_through(const vsc_touch *touch, const double *x, const doubl
 
 typedef struct worst {
   const vsc_touch *touch;
-  double off;  // the largest |g| of nodes with t > 0, mm
+  double off;  // the largest |g| of nodes with a force, mm
   contact at;
 } worst;
 
 static void find_worst(void *context, const contact *c)
 {
   worst *w = context;
-  if (!(w->touch->force[c->pair] > 0) || fabs(c->gap) <= w->off) return;
+  if (w->touch->force[c->pair] == 0 || fabs(c->gap) <= w->off) return;
   w->off = fabs(c->gap);
   w->at = *c;
 }
@@ -197,11 +211,16 @@ static void find_worst(void *context, const contact *c)
 bool vsc_touch_update(vsc_touch *touch, const double *x)
 {
   worst w = {.touch = touch};
+  bool pulled = false;
   visit_all(touch, x, touch->time, find_worst, &w);
-  memcpy(touch->multiplier, touch->force, vsc_state_contacts(touch->model) * sizeof *touch->force);
+  for (size_t k = 0; k < vsc_state_contacts(touch->model); k++) {
+    pulled |= touch->force[k] < 0;
+    touch->multiplier[k] = fmax(touch->force[k], 0);
+  }
   if (w.off > SLOWLY * touch->off) touch->raise = fmin(RAISE * touch->raise, MOST_RAISE);
-  const bool settled = w.off <= DEEPEST * touch->size;
+  const bool settled = w.off <= DEEPEST * touch->size && !pulled;
   touch->off = settled ? INFINITY : w.off;
+  touch->from = NULL;
   return settled;
 }
 

@@ -37,6 +37,7 @@ typedef struct vsc_touch {
   double raise;        // of k, since the multipliers were begun
   double size;         // of the body, mm
   double off;          // largest |g| of the round before, mm
+  const double *from;  // node_count x 4: what a first iterate is seen from; NULL in later rounds
 } vsc_touch;
 
 // Memory for `model`, of a body of `size` (mm): NULL without obstacles. VSC_SYSTEM when memory is short. The caller
@@ -52,17 +53,19 @@ void vsc_touch_free(vsc_touch *touch);  // NULL is fine
 void vsc_touch_begin(vsc_touch *touch, const vsc_state *state, double time, double stiffness_factor,
                      double mass_factor);
 
-// Adds t n to r (node_count x 4, mN) at x (node_count x 4).
-void vsc_touch_push(vsc_touch *touch, const double *x, double *r);
+// Adds t n to r (node_count x 4, mN) at x (node_count x 4), found from the iterate `before` (likewise; NULL: the first).
+// Nodes are pushed that are so as seen from there, l - k (g_b + n_b . (x - x_b)) > 0, with t = l - k g for once even below
+// 0: a node on its way round a sphere that a step along the tangent has put off it is not let go.
+void vsc_touch_push(vsc_touch *touch, const double *x, const double *before, double *r);
 
-// Adds its tangent at x to that of the balance.
+// Adds its tangent at the x of the last vsc_touch_push to that of the balance.
 void vsc_touch_tangent(const vsc_touch *touch, const double *x, vsc_tangent *tangent);
 
 // Whether a node goes through a sphere on its straight way from x to `next` (node_count x 4): nearer to the centre than
 // half the radius, from where it might be put out on the other side. Writes then into `what` (of `size` bytes) which.
 bool vsc_touch_goes_through(const vsc_touch *touch, const double *x, const double *next, char *what, size_t size);
 
-// l <- t, at a solution x. Returns whether depths are small enough.
+// l <- max(t, 0), at a solution x. Returns whether depths are small enough and no node was pulled.
 bool vsc_touch_update(vsc_touch *touch, const double *x);
 
 // sqrt(sum t^2) of the last vsc_touch_push, mN.
