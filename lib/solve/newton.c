@@ -10,7 +10,7 @@
 #include "model/free_motions.h"
 #include "solve/incompressible.h"
 
-enum { MOST_HALVINGS = 4, MANY = 9, WHY = 160 };
+enum { MOST_HALVINGS = 4, WHY = 160 };
 // Full steps of a stiffening body overshoot, and come back from far away; not from here.
 #define DIVERGED 1e10
 // Systems with a factor are solved at least this well: what bends forgives little.
@@ -145,13 +145,11 @@ static void write_row(vsc_newton *newton, const vsc_newton_row *row)
 }
 
 // x <- x + d, or half of it, a quarter ... where an element would turn inside out or a node go through an obstacle; why,
-// when that does not help. After MANY iterations nodes may be touching obstacles and leaving them in turns, which a half
-// step now and then ends.
-static bool step(vsc_newton *newton, int iteration, double *x, char why[WHY])
+// when that does not help.
+static bool step(vsc_newton *newton, double *x, char why[WHY])
 {
   const size_t count = 4 * newton->model->node_count;
-  const bool turns = newton->touch != NULL && iteration >= MANY && iteration % 3 == 0;
-  double part = turns ? 0.5 : 1;
+  double part = 1;
   uint32_t element = 0;
   for (int k = 0; k <= MOST_HALVINGS; k++, part /= 2) {
     for (size_t i = 0; i < count; i++) newton->trial[i] = x[i] + part * newton->d[i];
@@ -245,7 +243,7 @@ static vsc_status solve(vsc_newton *newton, const vsc_balance *balance, double t
                  : status;
     }
     char why[WHY];
-    if (!step(newton, k, x, why)) {
+    if (!step(newton, x, why)) {
       newton->failures++;
       return fail(newton, error, time, why);
     }
