@@ -1,64 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contact where forces balance: its force and tangent, closed forms of pressed bodies, equilibria against explicit
-// steps, and implicit steps that neither gain energy nor chatter.
-#include "base/vec3.h"
+// Contact in equilibria: its force and tangent, closed forms of pressed bodies, what is refused.
 #include "mech/tangent.h"
-#include "small_body.h"
-#include "solve/implicit.h"
-#include "solve/solve.h"
+#include "pressed_body.h"
 #include "solve/touch.h"
 #include "tools/shapes_block.h"
-
-static const double GRAVITY = 9.81e-3;  // mm/ms^2
-
-static vsc_obstacle_def plane(double z, double up)
-{
-  vsc_obstacle_def def = vsc_default_obstacle();
-  def.kind = VSC_OBSTACLE_PLANE;
-  def.point[2] = z;
-  def.normal[2] = up;
-  return def;
-}
-
-static vsc_obstacle_def ball(double x, double y, double z, double radius)
-{
-  vsc_obstacle_def def = vsc_default_obstacle();
-  def.kind = VSC_OBSTACLE_SPHERE;
-  memcpy(def.point, (double[]){x, y, z}, sizeof def.point);
-  def.radius = radius;
-  return def;
-}
-
-// It moves by `way` along z in `duration`.
-static void move(vsc_obstacle_def *def, double way, double duration)
-{
-  def->motion[2] = way;
-  def->curve = vsc_default_curve(VSC_CURVE_RAMP);
-  def->curve.duration = duration;
-}
-
-// An elastic block of n x n x n cells of 1 mm on the planes of symmetry x = 0 and y = 0.
-static void open_block(small_body *body, size_t n, double jitter, vsc_solve_kind kind, vsc_obstacle_def *obstacles,
-                       size_t count)
-{
-  body_open(body, block_of(n, n, n, 1, jitter), 50);
-  body_hold(body, "x0", 1, 0, 0);
-  body_hold(body, "y0", 0, 1, 0);
-  body->definition.obstacles = obstacles;
-  body->definition.obstacle_count = count;
-  body->definition.end_time = 1000;
-  body->definition.solve.kind = kind;
-  body->definition.solve.tolerance = 1e-10;
-}
-
-static void advance(small_body *body, double until)
-{
-  vsc_error error;
-  if (body->state->solver == NULL && body->state->steps == 0 &&
-      vsc_solve_start(body->model, body->state, &error) != VSC_OK)
-    fail_msg("%s", error.text);
-  if (vsc_solve_to(body->model, body->state, until, &error) != VSC_OK) fail_msg("%s", error.text);
-}
 
 // The deepest node, below 0 inside, and the largest gap of a node that an obstacle pushes.
 static double deepest(const small_body *body, double *furthest)
@@ -233,17 +178,7 @@ static void a_block_between_planes_has_its_closed_form(void **state)
   body_close(&body);
 }
 
-// A ball of 3 mm comes down by `way` on a damped block of 4 x 4 x 4 mm that lies on a table.
-static void open_palpation(small_body *body, vsc_obstacle_def things[2], double way, vsc_solve_kind kind)
-{
-  things[0] = plane(0, 1);
-  things[1] = ball(0.3, 0.2, 7, 3);
-  move(&things[1], -way, 100);
-  open_block(body, 4, 0.2, kind, things, 2);
-  for (int a = 0; a < 3; a++) body->material.damping[a] = 20;
-}
-
-// Depth of an obstacle's or a node's sums: the ball comes down by a fifth of the height at once and in ten increments.
+// The ball comes down by a fifth of the height at once and in ten increments.
 // Depths stay below 1e-8 of the body's diagonal of 7 mm; all that is pushed touches; what the ball does the table feels
 // (the residual is 1e-10 of the forces); both ways end in the same, and in ten increments the work, a trapezoidal sum of
 // what grows like a power of the way, is the stored energy to a per cent.
@@ -289,29 +224,6 @@ static void a_table_bears_the_weight(void **state)
   assert_close(body.state->contact[0].force[2], 64 * GRAVITY, 1e-9, 0);
   assert_true(body.state->contact[0].work == 0);
   body_close(&body);
-}
-
-// Explicit steps, implicit ones and an equilibrium end in the same place: strain rates and what is left of motion are
-// gone after 200 ms, and tangents of the explicit end have depths of rounding.
-static void all_methods_end_in_the_same(void **state)
-{
-  (void)state;
-  const vsc_solve_kind kinds[3] = {VSC_SOLVE_EQUILIBRIUM, VSC_SOLVE_IMPLICIT, VSC_SOLVE_EXPLICIT};
-  double *x = NULL;
-  for (int k = 0; k < 3; k++) {
-    small_body body;
-    vsc_obstacle_def things[2];
-    open_palpation(&body, things, 0.8, kinds[k]);
-    body.definition.step = kinds[k] == VSC_SOLVE_IMPLICIT ? 2 : 0;
-    body_build(&body);
-    advance(&body, 200);
-    const size_t count = 4 * body.model->node_count;
-    if (k == 0) x = malloc(count * sizeof *x);
-    if (k == 0) memcpy(x, body.state->x, count * sizeof *x);
-    for (size_t i = 0; i < count; i++) assert_close(body.state->x[i], x[i], 0, 1e-6);
-    body_close(&body);
-  }
-  free(x);
 }
 
 // Force of a ball of R = 10 mm pressed by d = 0.1 mm into a block whose quarter is 60 mm long, wide and high, of n x n x
@@ -378,102 +290,6 @@ static void no_node_goes_through_a_ball(void **state)
   assert_close(force[1], force[0], 1e-6, 0);
 }
 
-// ---- implicit steps
-
-// Kinetic and stored energy.
-static double energy(small_body *body, vsc_ledger *ledger, vsc_totals *t)
-{
-  vsc_observe(body->model, body->state, ledger, false, t);
-  return t->kinetic + t->axial + t->angular + t->volume_energy + t->gravity_energy;
-}
-
-// A block falls 2 mm on a table in steps that are long for its stiffest motions (0.07 ms) and short of the fall (20 ms).
-// It never has more energy than before, but for 1e-8 of that of the fall, to which equations are solved; it comes to
-// rest, and the table bears its weight.
-static void a_dropped_block_gains_nothing_and_comes_to_rest(void **state)
-{
-  (void)state;
-  for (int scheme = 0; scheme < 2; scheme++) {
-    small_body body;
-    vsc_ledger *ledger;
-    vsc_totals t;
-    vsc_obstacle_def table = plane(-2, 1);
-    body_open(&body, block_of(3, 3, 3, 1, 0.2), 50);
-    for (int a = 0; a < 3; a++) body.material.damping[a] = 3;
-    body.definition.obstacles = &table;
-    body.definition.obstacle_count = 1;
-    body.definition.end_time = 1000;
-    body.definition.gravity[2] = -GRAVITY;
-    body.definition.solve.kind = VSC_SOLVE_IMPLICIT;
-    body.definition.solve.scheme = scheme == 0 ? VSC_SCHEME_GENERALIZED_ALPHA : VSC_SCHEME_TRAPEZOID;
-    body.definition.solve.tolerance = 1e-10;
-    body.definition.step = 0.25;
-    body_build(&body);
-    assert_int_equal(vsc_ledger_create(body.model, &ledger, NULL), VSC_OK);
-    const double fall = body.model->total_mass * GRAVITY * 2;
-    double before = energy(&body, ledger, &t);
-    for (double time = 0.5; time <= 150; time += 0.5) {
-      advance(&body, time);
-      const double now = energy(&body, ledger, &t);
-      assert_true(now <= before + 1e-8 * fall);
-      before = now;
-    }
-    assert_true(t.contact_lost > 0.2 * fall);
-    assert_true(t.kinetic < 1e-6 * fall);
-    const double impulse = body.state->contact[0].impulse[2];
-    advance(&body, 160);
-    assert_close((body.state->contact[0].impulse[2] - impulse) / 10, body.model->total_mass * GRAVITY, 1e-3, 0);
-    vsc_ledger_free(ledger);
-    body_close(&body);
-  }
-}
-
-// Force of the ball in rows of 10 ms, and the worst of the balance, both over their largest. Returns the number of steps.
-static double palpate(vsc_solve_kind kind, vsc_scheme scheme, double step, double force[12], double *off)
-{
-  small_body body;
-  vsc_obstacle_def things[2];
-  vsc_ledger *ledger;
-  vsc_totals t;
-  open_palpation(&body, things, 0.8, kind);
-  body.definition.solve.scheme = scheme;
-  body.definition.step = step;
-  body_build(&body);
-  assert_int_equal(vsc_ledger_create(body.model, &ledger, NULL), VSC_OK);
-  energy(&body, ledger, &t);
-  *off = 0;
-  for (int row = 0; row < 120; row++) {
-    const double before = row % 10 == 0 ? -body.state->contact[1].impulse[2] : force[row / 10];
-    advance(&body, row + 1);
-    energy(&body, ledger, &t);
-    *off = fmax(*off, fabs(vsc_balance_error(ledger, &t)));
-    force[row / 10] = row % 10 < 9 ? before : (-body.state->contact[1].impulse[2] - before) / 10;
-  }
-  *off /= t.contact_work;
-  const double steps = body.state->steps;
-  vsc_ledger_free(ledger);
-  body_close(&body);
-  return steps;
-}
-
-// A ball that comes down: the force's course is that of explicit steps, and what the ball works is stored, dissipated or
-// lost. Measured: courses 4e-5 of the largest force off each other, balances 5e-5 and 8e-5.
-static void a_ball_that_comes_down_is_felt_as_in_explicit_steps(void **state)
-{
-  (void)state;
-  double truth[12], force[12], off;
-  palpate(VSC_SOLVE_EXPLICIT, VSC_SCHEME_TRAPEZOID, 0, truth, &off);
-  for (int scheme = 0; scheme < 2; scheme++) {
-    palpate(VSC_SOLVE_IMPLICIT, scheme == 0 ? VSC_SCHEME_GENERALIZED_ALPHA : VSC_SCHEME_TRAPEZOID, 0.5, force, &off);
-    double most = 0;
-    for (int k = 0; k < 12; k++) most = fmax(most, fabs(force[k] - truth[k]) / truth[11]);
-    assert_true(most < 1e-4);
-    assert_true(off < 3e-4);
-  }
-  // what presses on an obstacle is no error of a step: without that these are 422 steps, with it 124
-  assert_true(palpate(VSC_SOLVE_IMPLICIT, VSC_SCHEME_GENERALIZED_ALPHA, 0, force, &off) < 200);
-}
-
 // ---- what is refused
 
 static void must_refuse(small_body *body, vsc_status expected, const char *text)
@@ -531,11 +347,8 @@ int main(void)
       cmocka_unit_test(a_block_between_planes_has_its_closed_form),
       cmocka_unit_test(a_ball_presses_a_fifth_of_the_height),
       cmocka_unit_test(a_table_bears_the_weight),
-      cmocka_unit_test(all_methods_end_in_the_same),
       cmocka_unit_test(a_ball_on_a_block_comes_near_to_hertz),
       cmocka_unit_test(no_node_goes_through_a_ball),
-      cmocka_unit_test(a_dropped_block_gains_nothing_and_comes_to_rest),
-      cmocka_unit_test(a_ball_that_comes_down_is_felt_as_in_explicit_steps),
       cmocka_unit_test(what_is_not_there_yet_is_refused),
       cmocka_unit_test(obstacles_that_leave_no_place_are_told),
   };

@@ -20,7 +20,7 @@ typedef struct scheme {
   double error;                  // c
   double push;                   // of contact (touch.h): F/R, and what accelerations and velocities get of R/M
   double kick[2];                // beside A x_1 + h_a and V x_1 + h_v; 1, ms
-  double lag;                    // ms: of v_1 = V (x_1 - x_0 - dt v_0) + v_0 + lag a_0
+  double lag;                    // of v_1 = V (x_1 - x_0 - dt v_0) + v_0 + lag a_0, ms
 } scheme;
 
 typedef struct stepper {
@@ -135,7 +135,8 @@ static scheme prepare(const vsc_model *model, const vsc_state *state, stepper *s
   const double gamma = 0.5 - m + f, beta = 0.25 * (1 - m + f) * (1 - m + f);
   const scheme newmark = {.mass_past = m, .force_past = f, .A = 1 / (beta * dt * dt),
                           .V = gamma / (beta * dt), .error = fabs(beta - 1.0 / 6), .push = 2 * beta / (1 - m),
-                          .kick = {-1 / (1 - m), dt * (2 * beta - gamma) / (1 - m)}, .lag = dt * (1 - gamma / (2 * beta))};
+                          .kick = {-1 / (1 - m), dt * (2 * beta - gamma) / (1 - m)},
+                          .lag = dt * (1 - gamma / (2 * beta))};
   for (size_t i = 0; i < count; i++) {
     const double a0 = state->a[i], v0 = state->v[i];
     s->h_a[i] = -newmark.A * (state->x[i] + dt * v0) - (0.5 / beta - 1) * a0;
@@ -155,7 +156,7 @@ static void residual(void *context, const double *x, double *r)
     p->s->middle[i] = part * x[i] + c->force_past * state->x[i];
     p->s->velocity[i] = part * (c->V * x[i] + p->s->h_v[i]) + c->force_past * state->v[i];
   }
-  // what rests on an obstacle has a_0, but is not to rub by it
+  // what rests on an obstacle has a_0, of which viscosity must not see the way
   for (size_t i = 0; p->model->obstacle_count > 0 && i < 4 * p->model->node_count; i++)
     p->s->velocity[i] -= part * c->lag * p->s->stopped[i];
   vsc_force(p->model, p->s->middle, p->s->velocity, p->time, &p->state->scratch, r);

@@ -58,8 +58,8 @@ void vsc_newton_begin(vsc_newton *newton, const double *force);
 
 // Solves from x (node_count x 4), which becomes the solution, to |r| <= tolerance x the scale of
 // forces. `time` and `load` go into the rows. VSC_NUMERICAL, with plain words why, when it does
-// not converge; x is then undefined. With obstacles it is solved with their forces, for which vsc_touch_begin was called,
-// again and again, until multipliers have settled; iterations are those of the first time.
+// not converge; x is then undefined. With obstacles, for which vsc_touch_begin was called, it is solved with
+// their forces again and again, until multipliers have settled; iterations are those of the first time.
 vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, double time, double load,
                             double *x, int *iterations, vsc_error *error);
 

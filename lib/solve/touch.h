@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contact with obstacles, without friction, where forces balance: equilibria and implicit steps. By the augmented
 // Lagrangian (Alart & Curnier 1991, Simo & Laursen 1992) each pair of an obstacle and a node that it stops has a
-// multiplier l >= 0; with the node's gap g(x) to the obstacle where that stands at the end, below 0 inside, and the
+// multiplier l >= 0. With the node's gap g(x) to the obstacle where that stands at the end, below 0 inside, and the
 // unit vector n out of the obstacle there, the force on the node and its tangent are
 //
 //   t n,  t = max(l - k g, 0) = -dE/dx,  E = (t^2 - l^2)/(2 k),
 //   k n n^T - t/(r + g) (1 - n n^T)  where l - k g >= 0,
 //
-// the second part for spheres of radius r only, and with l for t, which is the same in the end: nodes that an iterate has
-// far inside would take the body's own stiffness away. Nodes come and go between Newton's iterations (Hintermueller, Ito
-// & Kunisch 2003). After each solution l <- t, and it is solved again, until |g| of
-// each node with t > 0 is below 1e-8 of the body's size. k is 30 times what the node resists by itself, and ten times
-// more from round to round where depths do not fall to a quarter: so the solution does not depend on it.
+// the second part for spheres of radius r only, and with l for t, which is the same in the end: nodes that an iterate
+// has far inside would take the body's own stiffness away. Nodes come and go between Newton's iterations
+// (Hintermueller, Ito & Kunisch 2003). After each solution l <- t, and it is solved again, until |g| of each node with
+// t > 0 is below 1e-8 of the body's size. k is 30 times what the node resists by itself, and ten times more from round
+// to round where depths do not fall to a quarter: so the solution does not depend on it.
 //
-// Implicit steps (not BDF2, whose past an impact would come back from): obstacles act on x_1, so that it is outside of
-// them, as the impulse dt F over the step; velocities get it, accelerations never have it (Kane, Repetto, Ortiz & Marsden
-// 1999). With R = t n beside the forces f of solve/implicit.h,
-//   M [(1 - m) (A x_1 + h_a) + m a_0] = f + R,  M a_1 = M (A x_1 + h_a) - R/(1 - m),  F = gamma R/(1 - m).
-// Then a node that is touched gets its obstacle's velocity along n, so that no node bounces by itself, and none that rests
-// swings with the steps. Of the trapezoid's energy F takes F . ((p - p_0) - (x_1 - x_0)) beside what the obstacle's way
-// p - p_0 gives, which at a plane is never below 0, and the stop takes more: contact makes none. Were R an ordinary force
-// at x_1, nodes that rest would swing for ever, and an impact would give back in the next step what it has taken.
+// Implicit steps (not BDF2, from whose past an impact would come back): obstacles act on x_1, so that it is outside of
+// them, as the impulse dt F over the step, which moves it by dt^2 F/(2 M); velocities get it, accelerations never have
+// it (Kane, Repetto, Ortiz & Marsden 1999). With R = t n beside the forces f of solve/implicit.h that is
+//   M [(1 - m) (A x_1 + h_a) + m a_0] = f + R,  a_1 = A x_1 + h_a - R/((1 - m) M),  F = 2 beta R/(1 - m),
+//   v_1 = V x_1 + h_v + dt (2 beta - gamma) R/((1 - m) M),
+// and viscosity sees V x_1 + h_v without what h_v has of the part of a_0 that obstacles stop. Then a node that is
+// touched gets its obstacle's velocity along n, so that none bounces by itself, and none that rests swings with the
+// steps. Of the trapezoid's energy F takes F . ((p - p_0) - (x_1 - x_0)) beside what the obstacle's way p - p_0 gives,
+// at a plane never below 0, and the stop takes more: contact makes none. Were R a force as any other at x_1, nodes that
+// rest would swing for ever, and an impact would give back in the next step what it has taken.
 #ifndef VSC_SOLVE_TOUCH_H
 #define VSC_SOLVE_TOUCH_H
 
@@ -54,8 +56,8 @@ void vsc_touch_begin(vsc_touch *touch, const vsc_state *state, double time, doub
                      double mass_factor);
 
 // Adds t n to r (node_count x 4, mN) at x (node_count x 4), found from the iterate `before` (likewise; NULL: the first).
-// Nodes are pushed that are so as seen from there, l - k (g_b + n_b . (x - x_b)) > 0, with t = l - k g for once even below
-// 0: a node on its way round a sphere that a step along the tangent has put off it is not let go.
+// Nodes are pushed that are so as seen from there, l - k (g_b + n_b . (x - x_b)) > 0, with t = l - k g that may be
+// below 0 on the way: a node that a step along its tangent has put a little off a sphere is not let go.
 void vsc_touch_push(vsc_touch *touch, const double *x, const double *before, double *r);
 
 // Adds its tangent at the x of the last vsc_touch_push to that of the balance.
