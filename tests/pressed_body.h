@@ -35,8 +35,8 @@ static inline void move(vsc_obstacle_def *def, double way, double duration)
 }
 
 // An elastic block of n x n x n cells of 1 mm on the planes of symmetry x = 0 and y = 0.
-static inline void open_block(small_body *body, size_t n, double jitter, vsc_solve_kind kind, vsc_obstacle_def *obstacles,
-                       size_t count)
+static inline void open_block(small_body *body, size_t n, double jitter, vsc_solve_kind kind,
+                              vsc_obstacle_def *obstacles, size_t count)
 {
   body_open(body, block_of(n, n, n, 1, jitter), 50);
   body_hold(body, "x0", 1, 0, 0);

@@ -73,7 +73,7 @@ static void a_dropped_block_gains_nothing_and_comes_to_rest(void **state)
   }
 }
 
-// Force of the ball in rows of 10 ms, and the worst of the balance, both over their largest. Returns the number of steps.
+// Force of the ball in rows of 10 ms, mN, and the worst of the balance over the ball's work. Returns the number of steps.
 static double palpate(vsc_solve_kind kind, vsc_scheme scheme, double step, double force[12], double *off)
 {
   small_body body;

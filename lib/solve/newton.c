@@ -144,8 +144,8 @@ static void write_row(vsc_newton *newton, const vsc_newton_row *row)
   newton->rows[newton->row_count++] = *row;
 }
 
-// x <- x + d, or half of it, a quarter ... where an element would turn inside out or a node go through an obstacle; why,
-// when that does not help.
+// x <- x + d, or half of it, a quarter ... where an element would turn inside out or a node go through an obstacle;
+// `why`, when that does not help.
 static bool step(vsc_newton *newton, double *x, char why[WHY])
 {
   const size_t count = 4 * newton->model->node_count;

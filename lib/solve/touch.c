@@ -103,12 +103,14 @@ typedef struct pushing {
   double *r;
 } pushing;
 
-// g_b + n_b . (x - x_b): the gap as it is seen from the iterate before.
+// g_b + n_b . (x - x_b): the gap as it is seen from the iterate before; of planes the gap itself.
 static double foretold_gap(const pushing *p, const contact *c)
 {
+  const vsc_obstacle *obstacle = &p->touch->model->obstacles[c->obstacle];
+  if (p->before == NULL || obstacle->kind == VSC_OBSTACLE_PLANE) return c->gap;
   const double *before = p->before + 4 * (size_t)c->node;
   double normal[3], way[3];
-  const double gap = vsc_obstacle_gap(&p->touch->model->obstacles[c->obstacle], c->point, before, normal);
+  const double gap = vsc_obstacle_gap(obstacle, c->point, before, normal);
   vsc_subtract(p->x + 4 * (size_t)c->node, before, way);
   return gap + vsc_dot(normal, way);
 }
@@ -117,8 +119,7 @@ static void push(void *context, const contact *c)
 {
   const pushing *p = context;
   const double l = p->touch->multiplier[c->pair];
-  const double foretold = l - c->stiffness * (p->before != NULL ? foretold_gap(p, c) : c->gap);
-  const double t = foretold > 0 ? l - c->stiffness * c->gap : 0;
+  const double t = l - c->stiffness * foretold_gap(p, c) > 0 ? l - c->stiffness * c->gap : 0;
   p->touch->force[c->pair] = t;
   for (size_t i = 0; i < 3; i++) p->r[4 * (size_t)c->node + i] += t * c->normal[i];
 }
@@ -126,6 +127,7 @@ static void push(void *context, const contact *c)
 void vsc_touch_push(vsc_touch *touch, const double *x, const double *before, double *r)
 {
   if (touch == NULL) return;
+  memset(touch->force, 0, vsc_state_contacts(touch->model) * sizeof *touch->force);
   visit_all(touch, x, touch->time, push, &(pushing){touch, x, before != NULL ? before : touch->from, r});
 }
 

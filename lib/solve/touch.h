@@ -55,7 +55,7 @@ void vsc_touch_free(vsc_touch *touch);  // NULL is fine
 void vsc_touch_begin(vsc_touch *touch, const vsc_state *state, double time, double stiffness_factor,
                      double mass_factor);
 
-// Adds t n to r (node_count x 4, mN) at x (node_count x 4), found from the iterate `before` (likewise; NULL: the first).
+// Adds t n to r (node_count x 4, mN) at x (node_count x 4), found from the iterate `before` (likewise; NULL: none).
 // Nodes are pushed that are so as seen from there, l - k (g_b + n_b . (x - x_b)) > 0, with t = l - k g that may be
 // below 0 on the way: a node that a step along its tangent has put a little off a sphere is not let go.
 void vsc_touch_push(vsc_touch *touch, const double *x, const double *before, double *r);
