@@ -169,6 +169,8 @@ static void test_warnings_about_the_setting(void **state)
       "--set 'supports=[]' --set 'pressures=[]' --set 'gravity=[0 m/s2, 0 m/s2, -9.81 m/s2]'",
       "nothing is held");
   assert_warns("--set 'pressures=[]' --set 'materials[0].active.kind=none'", "nothing will move");
+  assert_warns("--set solve=equilibrium --set 'supports[0].held=[x]' --set 'obstacles=[{kind: plane, point: [0 mm, 0 mm, "
+               "0 mm], normal: [0, 0, 1]}]'", "never balance, unless it touches obstacles from the start: hold it by");
   must("$V check block.yaml --set 'supports=[]' --set 'pressures=[]'");  // a free muscle carries
                                                                          // nothing away
   assert_int_equal(warnings(), 0);

@@ -144,6 +144,24 @@ static void test_kept_volume(void **state)
   assert_true(last_signal("incompressible", "pressure_kept") != 0);
 }
 
+// Multipliers of contact and what is reckoned with them, in equilibria and implicit steps: as above.
+static void test_contact(void **state)
+{
+  (void)state;
+  static const char *const solves[] = {"equilibrium", "implicit"};
+  for (int k = 0; k < 2; k++) {
+    static char text[480], rows[PROGRAM_TEXT];
+    char file[64];
+    snprintf(text, sizeof text,
+             "$V run block.yaml -q --set solve=%s --set 'obstacles=[{kind: sphere, point: [14 mm, 5 mm, 13 mm], "
+             "radius: 3 mm, motion: [0 mm, 0 mm, -1 mm], curve: {kind: ramp, duration: 15 ms}}]'", solves[k]);
+    cut_and_compare(text, solves[k]);
+    snprintf(file, sizeof file, "%s/signals.csv", solves[k]);
+    load_text(file, rows, sizeof rows);
+    assert_holds(rows, "obstacle_0_x [mN],obstacle_0_y [mN],obstacle_0_z [mN],work_obstacles [mJ],lost_contact [mJ]");
+  }
+}
+
 // A run that has come to its end goes on when the end is put off.
 static void test_later_end(void **state)
 {
@@ -333,6 +351,7 @@ int main(void)
       cmocka_unit_test(test_threads),
       cmocka_unit_test(test_cut_in_two),
       cmocka_unit_test(test_moved_supports),
+      cmocka_unit_test(test_contact),
       cmocka_unit_test(test_prony),
       cmocka_unit_test(test_kept_volume),
       cmocka_unit_test(test_later_end),

@@ -157,7 +157,7 @@ static const vsc_row vsc_obstacle_group_rows[] = {
      .needed = BIT(VSC_OBSTACLE_SPHERE), .commented = true, .text = "10 mm",
      .meaning = "of the sphere"},
     {"friction", NUMBER(vsc_obstacle_def, friction), .text = "0.3",
-     .meaning = "Coulomb's coefficient; default 0"},
+     .meaning = "Coulomb's coefficient; default 0; above that solve: explicit"},
     {"motion", VECTOR(vsc_obstacle_def, motion, VSC_LENGTH), .text = "[0 mm, 0 mm, 0 mm]",
      .meaning = "how far it has moved where the curve is 1"},
     {"curve", PART(offsetof(vsc_obstacle_def, curve), vsc_curve_group), .commented = true,

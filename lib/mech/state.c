@@ -18,6 +18,14 @@ bool vsc_state_has_former(const vsc_model *model, bool velocities)
   return solve->kind == VSC_SOLVE_EQUILIBRIUM && !velocities;
 }
 
+size_t vsc_state_contacts(const vsc_model *model)
+{
+  size_t count = 0;
+  for (size_t o = 0; model->solve.kind != VSC_SOLVE_EXPLICIT && o < model->obstacle_count; o++)
+    count += model->obstacles[o].node_count;
+  return count;
+}
+
 static bool allocate(const vsc_model *model, vsc_state *state)
 {
   const size_t n = model->node_count;
@@ -47,6 +55,7 @@ static bool allocate(const vsc_model *model, vsc_state *state)
          VSC_NEW(state->contact_normal, model->obstacle_count > 0 ? 4 * n : 0) &&
          VSC_NEW(state->former, model->obstacle_count > 0 ? 4 * n : 0) &&
          VSC_NEW(state->pending, model->obstacle_count > 0 ? 4 * n : 0) &&
+         VSC_NEW(state->touch, vsc_state_contacts(model)) &&
          VSC_NEW(state->moved, model->moved_count) &&
          VSC_NEW(state->kept_pressure, model->kept.count) &&
          VSC_NEW(state->former_x, vsc_state_has_former(model, false) ? 4 * n : 0) &&
@@ -90,6 +99,7 @@ void vsc_state_free(vsc_state *state)
   vsc_free(state->contact_normal);
   vsc_free(state->former);
   vsc_free(state->pending);
+  vsc_free(state->touch);
   vsc_free(state->moved);
   vsc_free(state->kept_pressure);
   vsc_free(state->former_x);

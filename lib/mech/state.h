@@ -52,6 +52,7 @@ typedef struct vsc_contact_sums {
   double lost;        // by impact and friction, uJ
   double row_impulse[3];  // impulse at the last row of signals.csv, mN ms
   double row_time;        // when that was, ms
+  double force[3];        // on the nodes now; equilibria, mN
 } vsc_contact_sums;
 
 // What a support that moves has done since the start.
@@ -82,6 +83,8 @@ typedef struct vsc_state {
                               // mN ms, and the work of the obstacles behind them, uJ; likewise
   double *contact_normal;     // node_count x 4: the free part of the last one's normal, and
                               // its number; likewise
+  double *touch;          // vsc_state_contacts: multipliers, the force of each obstacle on each node that it
+                          // stops, mN; owned
   vsc_moved_sums *moved;  // moved_count; owned
   double *kept_pressure;  // kept.count: multiplier of each kept volume in the last step, kPa; owned
   void *keeper;           // what keeps them (solve/keep_volume.c), made when first needed
@@ -112,6 +115,9 @@ static inline bool vsc_state_has_past(const vsc_model *model)
 
 // Whether the model's method remembers the step before, and its velocities too.
 bool vsc_state_has_former(const vsc_model *model, bool velocities);
+
+// The number of pairs of an obstacle and a node that it stops; 0 for explicit steps, which have no multipliers.
+size_t vsc_state_contacts(const vsc_model *model);
 
 // The first node whose position or velocity is not finite, or node_count.
 size_t vsc_state_find_bad(const vsc_model *model, const vsc_state *state);

@@ -34,7 +34,6 @@ static vsc_status refuse(vsc_error *error, const char *what, const char *remedy)
 
 static vsc_status check(const vsc_model *model, vsc_error *error)
 {
-  if (model->obstacle_count > 0) return refuse(error, "contact with obstacles", "leave out obstacles");
   for (size_t p = 0; p < model->patch_count; p++) {
     if (!has_tangent(model, &model->patches[p]))
       return refuse(error, "law: paper or classical", "law: springs");

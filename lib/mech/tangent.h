@@ -37,7 +37,7 @@ typedef struct vsc_tangent {
 } vsc_tangent;
 
 // Memory and pattern for `model`. VSC_INPUT, naming what and the remedy, for what has no tangent:
-// law PAPER, classical springs, contact. Of kept volumes solve/kept_balance.h adds what pressures do.
+// law PAPER, classical springs. Of kept volumes solve/kept_balance.h adds what pressures do, of contact solve/touch.h.
 vsc_status vsc_tangent_create(const vsc_model *model, vsc_tangent **tangent, vsc_error *error);
 
 void vsc_tangent_free(vsc_tangent *tangent);  // NULL is fine

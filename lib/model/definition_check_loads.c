@@ -131,8 +131,29 @@ static void check_obstacle(vsc_checker *c, const vsc_definition *d, size_t item)
          "give a vector that is not zero");
   if (o->kind == VSC_OBSTACLE_PLANE) need_finite3(c, "normal", o->normal, "");
   need_not_negative(c, "friction", o->friction, "");
+  need(c, o->friction == 0 || d->solve.kind == VSC_SOLVE_EXPLICIT, "friction", o->friction, "",
+       "only explicit steps have friction yet; give 0, or take solve: explicit");
   if (o->set[0] != '\0') vsc_check_known(c, "set", o->set, d->sets, d->set_count, false);
   vsc_check_curve(c, &o->curve);
+}
+
+// What obstacles cannot be with.
+static void check_obstacles(vsc_checker *c, const vsc_definition *d)
+{
+  const vsc_solve_def *solve = &d->solve;
+  const bool implicit = solve->kind == VSC_SOLVE_IMPLICIT;
+  const char *what = NULL;
+  for (size_t i = 0; i < d->obstacle_count; i++) check_obstacle(c, d, i);
+  c->where[0] = '\0';
+  need(c, d->obstacle_count <= VSC_MOST_OBSTACLES, "obstacles", (double)d->obstacle_count, "of them",
+       "eight are the most");
+  if (solve->kind == VSC_SOLVE_EQUILIBRIUM && solve->method == VSC_STATICS_RELAXATION)
+    what = "solver.method: relaxation; take newton";
+  if (implicit && solve->scheme == VSC_SCHEME_BDF2)
+    what = "solver.scheme: bdf2; take generalized_alpha, with solver.rho: 0 for as much damping";
+  if (implicit && d->masses == VSC_MASS_CONSISTENT) what = "masses: consistent; take masses: lumped";
+  if (c->status == VSC_OK && d->obstacle_count > 0 && what != NULL)
+    c->status = vsc_fail(c->error, VSC_INPUT, "obstacles: not with %s, or leave obstacles out", what);
 }
 
 static void check_velocity(vsc_checker *c, const vsc_definition *d)
@@ -160,10 +181,8 @@ void vsc_check_loads(vsc_checker *c, const vsc_definition *d)
     check_motion(c, d, &d->supports[i]);
   }
   check_surface_loads(c, d);
-  for (size_t i = 0; i < d->obstacle_count; i++) check_obstacle(c, d, i);
+  check_obstacles(c, d);
   check_velocity(c, d);
   c->where[0] = '\0';
-  need(c, d->obstacle_count <= VSC_MOST_OBSTACLES, "obstacles", (double)d->obstacle_count, "of them",
-       "eight are the most");
   need_finite3(c, "gravity", d->gravity, "mm/ms2");
 }

@@ -7,7 +7,7 @@
 #include "run/job.h"
 
 // Scalars of a checkpoint, in the order of list_scalars.
-enum { CLOCK = 0, LIMIT = 2, WORKS = 10, WATCH = 15, SCALARS = 27, BLOCKS = 25 };
+enum { CLOCK = 0, LIMIT = 2, WORKS = 10, WATCH = 15, SCALARS = 27, BLOCKS = 26 };
 
 static void list_scalars(vsc_job *job, double *places[SCALARS])
 {
@@ -96,11 +96,12 @@ static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[
       {"acceleration", "mm/ms^2", nodes, 4, state->a},
       {"past_acceleration", "mm/ms^2", past_nodes(job), 4, state->past_a},
       {"stiffest_mode", "1", nodes, 4, state->limit.mode},
-      {"contact", "mN ms, uJ, uJ, mN ms, ms", job->problem->model->obstacle_count,
+      {"contact", "mN ms, uJ, uJ, mN ms, ms, mN", job->problem->model->obstacle_count,
        sizeof *state->contact / sizeof(double), (double *)state->contact},
       {"middle_velocity", "mm/ms", contact_nodes(job), 4, state->former},
       {"contact_impulse", "mN ms", contact_nodes(job), 4, state->pending},
       {"contact_normal", "1", contact_nodes(job), 4, state->contact_normal},
+      {"contact_multipliers", "mN", vsc_state_contacts(job->problem->model), 1, state->touch},
       {"node_multipliers", "kPa", multipliers(job, job->problem->model->node_count), 1,
        state->scratch.node_multiplier},
       {"element_multipliers", "kPa", multipliers(job, job->problem->model->pack_count), VSC_WIDTH,
@@ -172,7 +173,7 @@ static size_t sums_size(const vsc_job *job)
   return (model->obstacle_count * sizeof *job->state->contact +
           model->moved_count * sizeof *job->state->moved) / sizeof(double) +
          12 * contact_nodes(job) + model->kept.count + vsc_prony_size(model) + 1 +
-         4 * (former_nodes(job, false) + former_nodes(job, true) + past_nodes(job));
+         4 * (former_nodes(job, false) + former_nodes(job, true) + past_nodes(job)) + vsc_state_contacts(model);
 }
 
 // Copies these to `memory`, or back from it.
@@ -181,16 +182,17 @@ static void copy_sums(vsc_job *job, double *memory, bool back)
   vsc_state *state = job->state;
   const vsc_model *model = job->problem->model;
   const size_t nodes = 4 * contact_nodes(job);
-  enum { ARRAYS = 11 };
+  enum { ARRAYS = 12 };
   double *const arrays[ARRAYS] = {state->former,   state->pending,           state->contact_normal,
                                   (double *)state->contact, (double *)state->moved,
                                   state->prony,    &state->former_step,      state->former_x,
-                                  state->former_v, state->past_a, state->kept_pressure};
+                                  state->former_v, state->past_a, state->kept_pressure, state->touch};
   const size_t counts[ARRAYS] = {nodes, nodes, nodes,
                             model->obstacle_count * sizeof *state->contact / sizeof(double),
                             model->moved_count * sizeof *state->moved / sizeof(double),
                             vsc_prony_size(model), 1, 4 * former_nodes(job, false),
-                            4 * former_nodes(job, true), 4 * past_nodes(job), model->kept.count};
+                            4 * former_nodes(job, true), 4 * past_nodes(job), model->kept.count,
+                            vsc_state_contacts(model)};
   for (int k = 0; k < ARRAYS; memory += counts[k++])
     memcpy(back ? arrays[k] : memory, back ? memory : arrays[k], counts[k] * sizeof *memory);
 }

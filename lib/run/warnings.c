@@ -230,8 +230,9 @@ static void warn_setting(writer *w, const vsc_problem *problem)
   char ways[128];
   const bool rests = model->solve.kind == VSC_SOLVE_EQUILIBRIUM;
   if ((rests || problem->scene->prestress.loaded) && vsc_free_motions(model, ways, sizeof ways) > 0)
-    warn(w, "%s: the body is free to %s, so forces that push it there never balance: hold it by supports or robin",
-         rests ? "solve: equilibrium" : "prestress", ways);
+    warn(w, "%s: the body is free to %s, so forces that push it there never balance%s: hold it by supports or robin",
+         rests ? "solve: equilibrium" : "prestress", ways,
+         model->obstacle_count > 0 ? ", unless it touches obstacles from the start" : "");
   bool pushed = vsc_supports_move(model);
   for (size_t o = 0; o < model->obstacle_count; o++)
     pushed |= vsc_norm(model->obstacles[o].motion) > 0;

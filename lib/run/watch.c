@@ -48,16 +48,19 @@ static void put_energies(const vsc_model *model, vsc_watch *watch)
   put(watch, "mJ", MJ * vsc_balance_error(ledger, t), "balance_error", "");
 }
 
-// The mean reaction of each obstacle since the last row, mN, and what contact does to the energy.
+// The mean force of each obstacle on its nodes since the last row (of equilibria: the force now), mN, and what contact
+// does to the energy.
 static void put_contact(const vsc_model *model, const vsc_state *state, vsc_watch *watch)
 {
+  const bool rests = model->solve.kind == VSC_SOLVE_EQUILIBRIUM;
   for (size_t o = 0; o < model->obstacle_count; o++) {
     const vsc_contact_sums *sums = &state->contact[o];
     const double passed = state->time - sums->row_time;
     char name[32];
     for (int i = 0; i < 3; i++) {
       snprintf(name, sizeof name, "obstacle_%zu_%c", o, "xyz"[i]);
-      put(watch, "mN", passed > 0 ? (sums->impulse[i] - sums->row_impulse[i]) / passed : 0, name, "");
+      const double mean = passed > 0 ? (sums->impulse[i] - sums->row_impulse[i]) / passed : 0;
+      put(watch, "mN", rests ? sums->force[i] : mean, name, "");
     }
   }
   if (model->obstacle_count == 0) return;

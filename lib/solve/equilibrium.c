@@ -111,6 +111,7 @@ vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double u
   while (done < 1) {
     const double next = done + increment > 1 - SHORTEST ? 1 : done + increment;
     statics s = {model, state, start + next * way};
+    vsc_touch_begin(newton->touch, state, s.time, 1, 0);
     state->scratch.load = load0 + next * (1 - load0);
     int iterations = 0;
     vsc_kept_take(newton->kept, state);
@@ -128,6 +129,7 @@ vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double u
       vsc_kept_give(newton->kept, state);
       state->former_step = (next - done) * way;
       state->time = next == 1 ? until : s.time;
+      vsc_touch_reckon(newton->touch, state, state->former_step);
       vsc_moving_reckon(model, state, newton->r, state->scratch.load, state->former_step);
       done = next;
       increment *= iterations <= QUICK ? LONGER : 1;

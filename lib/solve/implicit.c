@@ -18,6 +18,9 @@ typedef struct scheme {
   double mass_past, force_past;  // m, f
   double A, V;                   // 1/ms^2, 1/ms
   double error;                  // c
+  double push;                   // of contact (touch.h): F/R, and what accelerations and velocities get of R/M
+  double kick[2];                // beside A x_1 + h_a and V x_1 + h_v; 1, ms
+  double lag;                    // of v_1 = V (x_1 - x_0 - dt v_0) + v_0 + lag a_0, ms
 } scheme;
 
 typedef struct stepper {
@@ -26,6 +29,8 @@ typedef struct stepper {
   double *h_a, *h_v;          // node_count x 4
   double *middle, *velocity, *middle_a;  // where forces balance
   double *next;               // x_1
+  double push;                // F/R of contact in the last step (touch.h)
+  double *stopped;            // what of a_0 obstacles stop
 } stepper;
 
 static void release(void *solver)
@@ -38,6 +43,7 @@ static void release(void *solver)
   vsc_free(s->velocity);
   vsc_free(s->middle_a);
   vsc_free(s->next);
+  vsc_free(s->stopped);
   vsc_free(s);
 }
 
@@ -84,7 +90,8 @@ vsc_status vsc_implicit_start(const vsc_model *model, vsc_state *state, vsc_erro
   vsc_status status = vsc_newton_create(model, &s->newton, error);
   if (status == VSC_OK &&
       (!VSC_NEW(s->h_a, count) || !VSC_NEW(s->h_v, count) || !VSC_NEW(s->middle, count) ||
-       !VSC_NEW(s->velocity, count) || !VSC_NEW(s->middle_a, count) || !VSC_NEW(s->next, count)))
+       !VSC_NEW(s->velocity, count) || !VSC_NEW(s->middle_a, count) || !VSC_NEW(s->next, count) ||
+       !VSC_NEW(s->stopped, model->obstacle_count > 0 ? count : 0)))
     status = vsc_fail_memory(error, "implicit steps");
   if (status != VSC_OK) {
     release(s);
@@ -135,7 +142,9 @@ static scheme prepare(const vsc_model *model, const vsc_state *state, stepper *s
   const double f = damped ? def->rho / (def->rho + 1) : 0;
   const double gamma = 0.5 - m + f, beta = 0.25 * (1 - m + f) * (1 - m + f);
   const scheme newmark = {.mass_past = m, .force_past = f, .A = 1 / (beta * dt * dt),
-                          .V = gamma / (beta * dt), .error = fabs(beta - 1.0 / 6)};
+                          .V = gamma / (beta * dt), .error = fabs(beta - 1.0 / 6), .push = 2 * beta / (1 - m),
+                          .kick = {-1 / (1 - m), dt * (2 * beta - gamma) / (1 - m)},
+                          .lag = dt * (1 - gamma / (2 * beta))};
   for (size_t i = 0; i < count; i++) {
     const double a0 = state->a[i], v0 = state->v[i];
     s->h_a[i] = -newmark.A * (state->x[i] + dt * v0) - (0.5 / beta - 1) * a0;
@@ -155,6 +164,9 @@ static void residual(void *context, const double *x, double *r)
     p->s->middle[i] = part * x[i] + c->force_past * state->x[i];
     p->s->velocity[i] = part * (c->V * x[i] + p->s->h_v[i]) + c->force_past * state->v[i];
   }
+  // what rests on an obstacle has a_0, of which viscosity must not see the way
+  for (size_t i = 0; p->model->obstacle_count > 0 && i < 4 * p->model->node_count; i++)
+    p->s->velocity[i] -= part * c->lag * p->s->stopped[i];
   vsc_force(p->model, p->s->middle, p->s->velocity, p->time, &p->state->scratch, r);
   vsc_kept_add_force(p->s->newton->kept, p->s->middle, r);
   double *a = p->s->middle_a;
@@ -182,33 +194,46 @@ static void assemble(void *context, const double *x, const double *before, vsc_t
 }
 
 // Where the state leads, unless that turns an element inside out.
-static void predict(const vsc_model *model, const vsc_state *state, double dt, double *x)
+static void predict(const vsc_model *model, const vsc_state *state, double dt, stepper *s)
 {
+  double *x = s->next;
   uint32_t element;
   for (size_t i = 0; i < 4 * model->node_count; i++)
     x[i] = state->x[i] +
            (model->inverse_mass[i] != 0 ? dt * (state->v[i] + 0.5 * dt * state->a[i]) : 0);
+  for (size_t i = 0; model->obstacle_count > 0 && i < 4 * model->node_count; i++)
+    x[i] -= 0.5 * dt * dt * s->stopped[i];
+  vsc_touch_put_out(s->newton->touch, x);
   if (vsc_smallest_ratio(model, x, &element) <= 0)
     memcpy(x, state->x, 4 * model->node_count * sizeof *x);
   vsc_supports_place(model, state->time + dt, 1, x);
 }
 
-// c dt^2 rms |a_1 - a_0|, mm.
+// Into middle_a: a_1.
+static void end_acceleration(const step *p)
+{
+  for (size_t i = 0; i < 4 * p->model->node_count; i++)
+    p->s->middle_a[i] = p->scheme.A * p->s->next[i] + p->s->h_a[i];
+  vsc_touch_kick(p->s->newton->touch, p->s->next, p->scheme.kick[0], p->s->middle_a);
+}
+
+// c dt^2 rms |a_1 - a_0|, mm; without what goes into obstacles, which is not free to be off. Overwrites `velocity`.
 static double step_error(const step *p, double dt)
 {
   const vsc_model *model = p->model;
-  double sum = 0;
-  for (size_t i = 0; i < 4 * model->node_count; i++) {
-    if (model->inverse_mass[i] == 0) continue;
-    const double a1 = p->scheme.A * p->s->next[i] + p->s->h_a[i];
-    sum += (a1 - p->state->a[i]) * (a1 - p->state->a[i]);
-  }
+  double *change = p->s->velocity, sum = 0;
+  for (size_t i = 0; i < 4 * model->node_count; i++)
+    change[i] = model->inverse_mass[i] == 0 ? 0 : p->s->middle_a[i] - p->state->a[i];
+  vsc_touch_strike(p->s->newton->touch, p->s->next, change);
+  for (size_t i = 0; i < 4 * model->node_count; i++) sum += change[i] * change[i];
   return p->scheme.error * dt * dt * sqrt(sum / (double)model->node_count);
 }
 
 static vsc_status accept(const step *p, double dt, vsc_error *error)
 {
   vsc_state *state = p->state;
+  p->s->push = p->scheme.push;
+  vsc_touch_reckon_step(p->s->newton->touch, state, p->s->next, dt, p->scheme.push);
   const bool remembers = p->model->solve.scheme == VSC_SCHEME_BDF2;
   for (size_t i = 0; i < 4 * p->model->node_count; i++) {
     const bool rests = p->model->inverse_mass[i] == 0 && p->s->next[i] == state->x[i] && state->v[i] == 0;
@@ -217,10 +242,12 @@ static vsc_status accept(const step *p, double dt, vsc_error *error)
       state->former_v[i] = state->v[i];
     }
     state->v[i] = rests ? 0 : p->scheme.V * p->s->next[i] + p->s->h_v[i];
-    state->a[i] = rests ? 0 : p->scheme.A * p->s->next[i] + p->s->h_a[i];
+    state->a[i] = rests ? 0 : p->s->middle_a[i];
     state->x[i] = p->s->next[i];
   }
   if (remembers) state->former_step = dt;
+  vsc_touch_kick(p->s->newton->touch, state->x, p->scheme.kick[1], state->v);
+  vsc_touch_stop(p->s->newton->touch, state, dt);
   vsc_kept_give(p->s->newton->kept, state);
   // Newmark's velocities would swing about what keeps volumes; backward differences do not
   return remembers ? VSC_OK : vsc_kept_settle(p->s->newton->kept, state->v, error);
@@ -234,6 +261,7 @@ static void reckon_supports(const vsc_model *model, vsc_state *state, double dt)
   if (model->moved_count == 0) return;
   vsc_force(model, state->x, state->v, state->time, &state->scratch, state->force);
   vsc_tangent_masses_times(model, s->newton->tangent, -1, state->a, state->force);
+  vsc_touch_add(s->newton->touch, state->x, s->push, state->force);
   vsc_moving_reckon(model, state, state->force, 1, dt);
 }
 
@@ -244,7 +272,10 @@ static vsc_status do_step(const vsc_model *model, vsc_state *state, double dt, d
   step p = {model, state, s, prepare(model, state, s, dt), 0};
   p.time = state->time + (1 - p.scheme.force_past) * dt;
   const vsc_balance balance = {&p, residual, assemble};
-  predict(model, state, dt, s->next);
+  vsc_touch_begin(s->newton->touch, state, state->time + dt, 1 - p.scheme.force_past,
+                  (1 - p.scheme.mass_past) * p.scheme.A);
+  vsc_touch_part(s->newton->touch, state, state->a, s->stopped);
+  predict(model, state, dt, s);
   vsc_kept_take(s->newton->kept, state);
   int iterations;
   *done = false;
@@ -255,6 +286,7 @@ static vsc_status do_step(const vsc_model *model, vsc_state *state, double dt, d
     *allowed = SHORTER * dt;
     return status;
   }
+  end_acceleration(&p);
   if (!(model->step > 0)) {
     const double most = model->solve.accuracy * s->newton->size, now = step_error(&p, dt);
     const double factor = now > 0 ? 0.9 * cbrt(most / now) : LONGER;

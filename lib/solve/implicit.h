@@ -11,7 +11,7 @@
 // Generalised alpha (Chung & Hulbert 1993): m = (2 rho - 1)/(rho + 1), f = rho/(rho + 1), Newmark's
 // gamma = 1/2 - m + f and beta = (1 - m + f)^2/4: second order, and what is too fast for the step
 // decays by rho in each. Trapezoid: m = f = 0, gamma = 1/2, beta = 1/4: keeps energy best, damps
-// nothing. BDF2: both derivatives by the second backward difference, for steps of any ratio.
+// nothing. BDF2: both derivatives by the second backward difference, for steps of any ratio. Obstacles: solve/touch.h.
 #ifndef VSC_SOLVE_IMPLICIT_H
 #define VSC_SOLVE_IMPLICIT_H
 

@@ -3,9 +3,7 @@
 
 #include "mech/force.h"
 
-// dc/dt at `time` from values dt apart; of second order, and without looking behind the table of a curve
-// that ends with the run.
-static double rate_of(const vsc_model *model, const vsc_curve *curve, double time, double dt)
+double vsc_moving_rate(const vsc_model *model, const vsc_curve *curve, double time, double dt)
 {
   const double before = vsc_curve_value(curve, time - dt);
   if (curve->period > 0 || time + dt <= model->end_time)
@@ -53,7 +51,7 @@ void vsc_moving_place(const vsc_model *model, vsc_state *state, double dt)
     const double part = vsc_curve_value(&moved->curve, state->time);
     give_rate(moved, (part - state->moved[s].part) / dt, state->v);
     if (model->terms.damping)
-      give_rate(moved, rate_of(model, &moved->curve, state->time, dt), state->scratch.predicted);
+      give_rate(moved, vsc_moving_rate(model, &moved->curve, state->time, dt), state->scratch.predicted);
   }
 }
 
@@ -63,7 +61,7 @@ void vsc_moving_account(const vsc_model *model, vsc_state *state, double dt, boo
     const vsc_moved *moved = &model->moved[s];
     vsc_moved_sums *sums = &state->moved[s];
     const double part = vsc_curve_value(&moved->curve, state->time);
-    const double rate = rate_of(model, &moved->curve, state->time, dt);
+    const double rate = vsc_moving_rate(model, &moved->curve, state->time, dt);
     double force[3];
     add_forces(moved, state->force, force);
     for (int i = 0; i < 3; i++) {

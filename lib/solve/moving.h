@@ -5,6 +5,10 @@
 
 #include "mech/state.h"
 
+// dc/dt at `time` (ms) from values of the curve dt apart, 1/ms; of second order, and without looking behind the table
+// of a curve that ends with the run.
+double vsc_moving_rate(const vsc_model *model, const vsc_curve *curve, double time, double dt);
+
 // To be called once the forces at the start are known and the nodes are in place: begins the sums, with
 // nodes at rest.
 void vsc_moving_start(const vsc_model *model, vsc_state *state);

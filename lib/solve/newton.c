@@ -8,8 +8,9 @@
 #include "base/mem.h"
 #include "mech/element.h"
 #include "model/free_motions.h"
+#include "solve/incompressible.h"
 
-enum { MOST_HALVINGS = 4 };
+enum { MOST_HALVINGS = 4, WHY = 160 };
 // Full steps of a stiffening body overshoot, and come back from far away; not from here.
 #define DIVERGED 1e10
 // Systems with a factor are solved at least this well: what bends forgives little.
@@ -35,6 +36,7 @@ vsc_status vsc_newton_create(const vsc_model *model, vsc_newton **newton, vsc_er
   if (status == VSC_OK)
     status = vsc_linear_create(model, made->tangent, model->solve.linear, &made->linear, error);
   if (status == VSC_OK) status = vsc_kept_create(model, &made->kept, error);
+  if (status == VSC_OK) status = vsc_touch_create(model, made->size, &made->touch, error);
   if (status == VSC_OK && (!VSC_NEW(made->r, count) || !VSC_NEW(made->d, count) ||
                            !VSC_NEW(made->trial, count) || !VSC_NEW(made->before, count)))
     status = vsc_fail_memory(error, "Newton's method");
@@ -52,6 +54,7 @@ void vsc_newton_free(vsc_newton *newton)
   vsc_tangent_free(newton->tangent);
   vsc_linear_free(newton->linear);
   vsc_kept_free(newton->kept);
+  vsc_touch_free(newton->touch);
   vsc_free(newton->r);
   vsc_free(newton->d);
   vsc_free(newton->trial);
@@ -144,14 +147,20 @@ static void write_row(vsc_newton *newton, const vsc_newton_row *row)
   newton->rows[newton->row_count++] = *row;
 }
 
-// x <- x + d, or half of it, a quarter ... where an element would turn inside out.
-static bool step(vsc_newton *newton, double *x, uint32_t *element)
+// x <- x + d, or half of it, a quarter ... where an element would turn inside out or a node go through an obstacle;
+// `why`, when that does not help.
+static bool step(vsc_newton *newton, double *x, char why[WHY])
 {
   const size_t count = 4 * newton->model->node_count;
   double part = 1;
+  uint32_t element = 0;
   for (int k = 0; k <= MOST_HALVINGS; k++, part /= 2) {
     for (size_t i = 0; i < count; i++) newton->trial[i] = x[i] + part * newton->d[i];
-    if (vsc_smallest_ratio(newton->model, newton->trial, element) <= 0) continue;
+    if (vsc_smallest_ratio(newton->model, newton->trial, &element) <= 0) {
+      snprintf(why, WHY, "element %u would turn inside out", element);
+      continue;
+    }
+    if (vsc_touch_goes_through(newton->touch, x, newton->trial, why, WHY)) continue;
     memcpy(x, newton->trial, count * sizeof *x);
     vsc_kept_advance(newton->kept, part);
     return true;
@@ -176,18 +185,19 @@ static vsc_status fail(const vsc_newton *newton, vsc_error *error, double time, 
   for (size_t i = 0; i < 4 * model->node_count; i++) out[i] = model->inverse_mass[i] != 0 ? newton->r[i] : 0;
   const size_t worst = vsc_largest_node(model, out);
   for (size_t i = 4 * worst; i < 4 * worst + 3; i++) size += out[i] * out[i];
-  char node[VSC_NODE_TEXT], ways[100], loose[200] = "";
+  char node[VSC_NODE_TEXT], ways[100], loose[240] = "";
   if (vsc_free_motions(model, ways, sizeof ways) > 0)
     snprintf(loose, sizeof loose,
-             "; nothing keeps the body from moving as a whole, it is free to %s: hold it by supports or robin", ways);
+             "; nothing%s keeps the body from moving as a whole, it is free to %s: hold it by supports or robin",
+             model->obstacle_count > 0 ? " but obstacles that it touches" : "", ways);
   return vsc_fail(error, VSC_NUMERICAL,
                   "at %.6g ms no equilibrium was found: %s%s; furthest out of balance, by %.2g mN, is %s; take a smaller "
                   "load or a better mesh there, or solve: explicit", time, why, loose, sqrt(size),
                   vsc_name_node(model, worst, node, sizeof node));
 }
 
-vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, double time, double load,
-                            double *x, int *iterations, vsc_error *error)
+static vsc_status solve(vsc_newton *newton, const vsc_balance *balance, double time, double load, double *x,
+                        int *iterations, vsc_error *error)
 {
   const vsc_model *model = newton->model;
   const double tolerance = model->solve.tolerance;
@@ -196,6 +206,7 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
   newton->indefinite = false;
   for (int k = 0; k <= VSC_MOST_NEWTON; k++) {
     balance->residual(balance->context, x, newton->r);
+    vsc_touch_push(newton->touch, x, k > 0 ? newton->before : NULL, newton->r);
     const double norm = free_norm(model, newton->r);
     off = vsc_kept_look(newton->kept, x);
     if (!(first > 0)) first = norm;
@@ -220,6 +231,7 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
                    fmax(0.3 * tolerance / fmax(relative, tolerance), 1e-8));
     before = norm;
     balance->assemble(balance->context, x, k > 0 ? newton->before : NULL, newton->tangent);
+    vsc_touch_tangent(newton->touch, x, newton->tangent);
     memcpy(newton->before, x, 4 * model->node_count * sizeof *x);
     const vsc_status status = vsc_kept_solve(newton->kept, newton->linear, newton->tangent, model->inverse_mass, x,
                                              newton->r, forcing, newton->d, &newton->indefinite, error);
@@ -236,19 +248,36 @@ vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, doub
                                             "large an increment)")
                  : status;
     }
-    uint32_t element = 0;
-    if (!step(newton, x, &element)) {
+    char why[WHY];
+    if (!step(newton, x, why)) {
       newton->failures++;
-      char why[80];
-      snprintf(why, sizeof why, "element %u would turn inside out", element);
       return fail(newton, error, time, why);
     }
   }
   newton->failures++;
-  char why[100];
+  char why[WHY];
   const double now = newton->rows[newton->row_count - 1].residual;
-  snprintf(why, sizeof why, "the residual is %.2g of the forces after %d iterations, not below %.2g", now, *iterations,
+  snprintf(why, WHY, "the residual is %.2g of the forces after %d iterations, not below %.2g", now, *iterations,
            tolerance);
   if (now <= tolerance) snprintf(why, sizeof why, "a kept volume is off by %.2g of itself", off);
   return fail(newton, error, time, why);
+}
+
+vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, double time, double load, double *x,
+                            int *iterations, vsc_error *error)
+{
+  vsc_touch *touch = newton->touch;
+  if (touch == NULL) return solve(newton, balance, time, load, x, iterations, error);
+  const bool unknown = newton->scale == 0;
+  for (int round = 0; round < VSC_MOST_ROUNDS; round++) {
+    int more;
+    const vsc_status status = solve(newton, balance, time, load, x, &more, error);
+    *iterations = round == 0 ? more : *iterations;
+    if (status != VSC_OK) return status;
+    if (vsc_touch_update(touch, x) && !(unknown && round == 0)) return VSC_OK;
+    // how hard nodes far inside were pushed at first tells nothing of the forces in the end
+    if (unknown && round == 0) newton->scale = whole_norm(newton->model, newton->r);
+    newton->scale = fmax(newton->scale, vsc_touch_norm(touch));
+  }
+  return vsc_touch_fail(touch, x, error);
 }

@@ -11,6 +11,7 @@
 #include "mech/tangent.h"
 #include "solve/kept_balance.h"
 #include "solve/linear.h"
+#include "solve/touch.h"
 
 enum { VSC_MOST_NEWTON = 40 };  // iterations of one solution
 
@@ -38,6 +39,7 @@ typedef struct vsc_newton {
   vsc_tangent *tangent;
   vsc_linear *linear;
   vsc_kept_balance *kept;  // NULL where no volumes are kept; owned
+  vsc_touch *touch;  // contact with obstacles; NULL without
   double *r, *d, *trial, *before;  // node_count x 4
   double size;            // of the body, mm
   double scale;           // of the forces at work, mN
@@ -60,6 +62,8 @@ void vsc_newton_begin(vsc_newton *newton, const double *force);
 // Solves from x (node_count x 4), which becomes the solution, to |r| <= tolerance x the scale of
 // forces and kept volumes to VSC_KEPT_BALANCE; newton->kept has their pressures, before and after. `time` and
 // `load` go into the rows. VSC_NUMERICAL, with plain words why, when it does not converge; x is then undefined.
+// With obstacles, for which vsc_touch_begin was called, it is solved with their forces again and again, until
+// multipliers have settled; iterations are those of the first time.
 vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, double time, double load,
                             double *x, int *iterations, vsc_error *error);
 
