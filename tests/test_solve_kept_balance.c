@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Few kept volumes in equilibria and implicit steps: closed forms, what explicit steps come to, second order in time, the
 // same bits after a stop and with any number of threads.
+#include "copy_factor.h"
 #include "kept_body.h"
 #include "solve/solve.h"
 
@@ -229,6 +230,7 @@ static void threads_and_stops_do_not_change_the_bits(void **state)
       memcpy(two.state->kept_pressure, one.state->kept_pressure, one.model->kept.count * sizeof(double));
       if (scheme == VSC_SCHEME_BDF2) memcpy(two.state->former_x, one.state->former_x, bytes);
       if (scheme == VSC_SCHEME_BDF2) memcpy(two.state->former_v, one.state->former_v, bytes);
+      copy_factor(&one, &two);
       solve_to(&two, 2);
       vsc_parallel_set_threads(1);
       solve_to(&one, 2);

@@ -56,7 +56,8 @@ vsc_status vsc_newton_create(const vsc_model *model, vsc_newton **newton, vsc_er
 void vsc_newton_free(vsc_newton *newton);  // NULL is fine
 
 // To be called before the first solution of a row: takes the norm of `force` (node_count x 4), the forces where the
-// row starts under the loads of its end, for the scale of forces; reactions of solutions raise it.
+// row starts under the loads of its end, for the scale of forces; reactions of solutions raise it. Forgets where
+// solutions for kept volumes start.
 void vsc_newton_begin(vsc_newton *newton, const double *force);
 
 // Solves from x (node_count x 4), which becomes the solution, to |r| <= tolerance x the scale of
