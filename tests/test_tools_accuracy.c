@@ -33,6 +33,18 @@ static void distances_and_bands_by_hand(void **state)
   assert_close(vsc_band_share(4, a, low, high, 1), 1, 0, 0);
 }
 
+// Of four curves the first is in the band of the others all of the time, the second three quarters of it, the third and
+// the fourth a quarter: the median is a half.
+static void curves_are_left_out_in_turn(void **state)
+{
+  (void)state;
+  static const double a[] = {1, 1, 1, 1}, b[] = {0, 1, 2, 1}, c[] = {2, 2, 0, 1}, d[] = {0.5, 0, 3, 3};
+  const double *const curves[] = {a, b, c, d};
+  assert_close(vsc_left_out_share(4, 4, curves, 0), 0.5, 0, 0);
+  assert_close(vsc_left_out_share(4, 4, curves, 3), 1, 0, 0);
+  assert_true(isnan(vsc_left_out_share(1, 4, curves, 0)));
+}
+
 static void powers_are_found(void **state)
 {
   (void)state;
@@ -160,6 +172,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(curves_are_linear_between_points),
       cmocka_unit_test(distances_and_bands_by_hand),
+      cmocka_unit_test(curves_are_left_out_in_turn),
       cmocka_unit_test(powers_are_found),
       cmocka_unit_test(closed_forms_have_their_printed_values),
       cmocka_unit_test(cases_are_counted),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/bench/curves.h"
 
+#include <gsl/gsl_sort.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 
 double vsc_curve_at(size_t count, const double *times, const double *values, double time)
@@ -30,6 +32,31 @@ double vsc_band_share(size_t count, const double *values, const double *low, con
   for (size_t k = 0; k < count; k++)
     within += values[k] >= low[k] - slack && values[k] <= high[k] + slack;
   return count > 0 ? (double)within / (double)count : NAN;
+}
+
+// The part of one curve's numbers that lie in the band of the others.
+static double share_among_others(size_t count, size_t rows, const double *const *curves, size_t one, double slack)
+{
+  double within = 0;
+  for (size_t r = 0; r < rows; r++) {
+    double low = INFINITY, high = -INFINITY;
+    for (size_t k = 0; k < count; k++) {
+      if (k == one) continue;
+      low = fmin(low, curves[k][r]);
+      high = fmax(high, curves[k][r]);
+    }
+    within += vsc_band_share(1, &curves[one][r], &low, &high, slack);
+  }
+  return within / (double)rows;
+}
+
+double vsc_left_out_share(size_t count, size_t rows, const double *const *curves, double slack)
+{
+  double shares[VSC_MOST_CURVES];
+  if (count < 2 || count > VSC_MOST_CURVES) return NAN;
+  for (size_t k = 0; k < count; k++) shares[k] = share_among_others(count, rows, curves, k, slack);
+  gsl_sort(shares, 1, count);
+  return gsl_stats_median_from_sorted_data(shares, 1, count);
 }
 
 double vsc_observed_order(size_t count, const double *h, const double *errors)

@@ -5,6 +5,8 @@
 
 #include <stddef.h>
 
+enum { VSC_MOST_CURVES = 32 };
+
 // The value at `time` between the two nearest of `count` points, linearly; the first or last value
 // outside.
 double vsc_curve_at(size_t count, const double *times, const double *values, double time);
@@ -15,6 +17,10 @@ double vsc_relative_distance(size_t count, const double *a, const double *b);
 // The part, 0 to 1, of `count` numbers with low - slack <= value <= high + slack.
 double vsc_band_share(size_t count, const double *values, const double *low, const double *high,
                       double slack);
+
+// Of `count` curves of `rows` numbers each: the median over the curves of the part of their numbers that lie between
+// the least and the most of all other curves, as above; NAN for fewer than two or more than VSC_MOST_CURVES.
+double vsc_left_out_share(size_t count, size_t rows, const double *const *curves, double slack);
 
 // The exponent p of error ~ h^p by least squares of the logarithms, over the points with a positive
 // error; NAN for fewer than two.

@@ -259,3 +259,25 @@ vsc_status vsc_measure_band(const vsc_outcome *outcome, const vsc_bench_quantity
   vsc_signals_free(table);
   return status;
 }
+
+vsc_status vsc_measure_team_band(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                                 vsc_measured *measured, vsc_error *error)
+{
+  vsc_signals *table;
+  vsc_status status = vsc_open_reference(outcome, quantity, &table, measured, error);
+  if (status != VSC_OK || table == NULL) return status;
+  const double *teams[VSC_MOST_CURVES];
+  char ending[VSC_NAME];
+  size_t count = 0;
+  snprintf(ending, sizeof ending, "_%s_u%c_mm", quantity->file_column, "xyz"[quantity->axis]);
+  for (size_t c = 0; c < table->columns && count < VSC_MOST_CURVES; c++) {
+    const size_t length = strlen(table->names[c]), tail = strlen(ending);
+    if (length > tail && strcmp(table->names[c] + length - tail, ending) == 0)
+      teams[count++] = table->values + c * table->rows;
+  }
+  measured->value = 100 * vsc_left_out_share(count, table->rows, teams, band_slack);
+  if (count < 2)
+    status = vsc_fail(error, VSC_INPUT, "%s: fewer than two columns end in %s", quantity->file, ending);
+  vsc_signals_free(table);
+  return status;
+}

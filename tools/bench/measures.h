@@ -41,6 +41,10 @@ vsc_bench_measure vsc_measure_strains;
 // time points, percent, at which component quantity->axis is between least and most.
 vsc_bench_measure vsc_measure_history, vsc_measure_band;
 
+// What that part is for a team of the benchmark itself: the median over all columns TEAM_NAME_u<x|y|z>_mm of
+// quantity->file (NAME is quantity->file_column, the component quantity->axis), each against the band of the others.
+vsc_bench_measure vsc_measure_team_band;
+
 // Histories of a point again, against reference curves in metres: columns t_s and u<x|y|z>_NAME_m, NAME being
 // quantity->file_column: relative distance over time and components.
 vsc_bench_measure vsc_measure_course;
