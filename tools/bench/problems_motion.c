@@ -92,10 +92,13 @@ const vsc_bench_problem vsc_bench_twisting_column = {
 static const vsc_bench_variant implicit_only[] = {{"implicit", 0, {"solve=implicit"}}};
 
 // On the benchmark's own mesh of 17,625 tets: its programs' springs hold on the normals of its flat
-// triangles, and on a smooth ellipsoid the wall slides 5 % further than theirs.
-// Most programs have quadratic elements with the volume's energy at each point.
+// triangles, and on a smooth ellipsoid the wall slides 5 % further than theirs. Most of them have quadratic elements
+// with the volume's energy at each point: these were not tried on the wall that snaps through, in many more iterations.
 static const vsc_bench_size walls[] = {
     {VSC_BENCH_NODAL | VSC_BENCH_POINTS, ""},
+};
+static const vsc_bench_size snapping_walls[] = {
+    {VSC_BENCH_NODAL, ""},
 };
 
 static const vsc_bench_quantity contracts[] = {
@@ -114,7 +117,7 @@ static const vsc_bench_quantity snaps[] = {
 const vsc_bench_problem vsc_bench_arostica_0b = {
     .name = "arostica_0b", .title = "Arostica 2025, case 0B: a ventricle is filled and snaps through",
     .scene = "arostica_0b.yaml", .mesh = "monoventricle_5mm.vtu",
-    .variants = VSC_COUNTED(implicit_only), .sizes = VSC_COUNTED(walls),
+    .variants = VSC_COUNTED(implicit_only), .sizes = VSC_COUNTED(snapping_walls),
     .quantities = VSC_COUNTED(snaps),
 };
 
