@@ -34,7 +34,7 @@ static const char help[] =
     "      --reference DIR   where curves of others are, to compare with [../shared/benchmarks if it is\n"
     "                        there; else such comparisons are skipped]\n"
     "  -s, --set KEY=VALUE   of every scene, after the cases' own settings\n"
-    "      --limit SECONDS   of processor time for each case [1200]\n"
+    "      --limit SECONDS   of processor time for each case [3600]\n"
     "      --no-pictures     none of the results\n"
     "  -t, --threads N       number of threads (default: all processors)\n"
     "  -h, --help            this text\n\n"
@@ -305,7 +305,7 @@ static int keep_option(wish *wish, int option, const char *text)
 int vsc_bench_accuracy(int argc, char **argv)
 {
   char shipped[PATH_MAX];
-  wish wish = {.scenes = vsc_shipped("benchmarks", shipped, sizeof shipped), .limit = 1200, .pictures = true};
+  wish wish = {.scenes = vsc_shipped("benchmarks", shipped, sizeof shipped), .limit = 3600, .pictures = true};
   int code = keep_output(&wish, "accuracy");
   optind = 0;
   for (int c; code == VSC_OK && (c = getopt_long(argc, argv, "o:s:t:h", options, NULL)) != -1;) {

@@ -97,7 +97,7 @@ static const vsc_bench_size walls[] = {
     {VSC_BENCH_NODAL, ""},
 };
 
-// Most of its programs have quadratic elements with the volume's energy at each point. These take a quarter of an hour:
+// Most of its programs have quadratic elements with the volume's energy at each point. These take twenty minutes:
 // one case of three shows what they change.
 static const vsc_bench_size shown_walls[] = {
     {VSC_BENCH_NODAL | VSC_BENCH_POINTS, ""},
