@@ -16,6 +16,7 @@
 // within 2 %, twice as soon when it moved by more than 10 %.
 #define SHORTEST_TRUST 0.25
 #define LONGEST_TRUST 4.0
+enum { TRUSTED_STEPS = 64 };  // or as long as these take: an estimate costs as much as five
 // A stable step below this part of the first one belongs to a body that is torn or crushed.
 #define COLLAPSE 1e-3
 enum { FIRST_ITERATIONS = 40, WARM_ITERATIONS = 4, NODES_PER_PIECE = 256 };
@@ -191,13 +192,19 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
   return VSC_OK;
 }
 
+// How long an estimate may be trusted, ms.
+static double longest_trust(const vsc_limit *limit)
+{
+  return fmax(LONGEST_TRUST, TRUSTED_STEPS * limit->step);
+}
+
 static vsc_status refresh_limit(const vsc_model *model, vsc_state *state, vsc_error *error)
 {
   vsc_limit *limit = &state->limit;
   const double before = limit->eigenvalue;
   vsc_limit_refresh(model, state, state->time, WARM_ITERATIONS);
   const double change = fabs(limit->eigenvalue - before) / before;
-  if (change < 0.02) limit->interval = fmin(2 * limit->interval, LONGEST_TRUST);
+  if (change < 0.02) limit->interval = fmin(2 * limit->interval, longest_trust(limit));
   if (change > 0.10) limit->interval = fmax(0.5 * limit->interval, SHORTEST_TRUST);
   limit->time = state->time;
   limit->least = fmin(limit->least, limit->step);
