@@ -3,6 +3,7 @@
 #include <getopt.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "tools/bench/accuracy.h"
@@ -72,6 +73,9 @@ static int run_usual(void)
 
 int vsc_verb_bench(int argc, char **argv)
 {
+  // cases are processes that are forked: threads that VTK's TBB has started before are not there in them, and it would
+  // wait for them for ever
+  setenv("VTK_SMP_BACKEND_IN_USE", "Sequential", 1);
   if (argc < 2) return run_usual();
   if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) {
     say_help();
