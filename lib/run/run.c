@@ -14,8 +14,8 @@
 #include "run/prestress.h"
 #include "solve/solve.h"
 
-#define LONGEST_LOOK 1.0  // ms between two looks of the energy ledger, or as long as
-#define STEPS_OF_LOOK 32  // steps take
+#define LONGEST_LOOK 1.0  // ms between two looks of the energy ledger,
+#define STEPS_OF_LOOK 32  // or as many steps, whichever is longer
 #define CLOSER 16         // looks in place of one that did not balance
 #define TURNS 4           // how often a way is gone again
 #define CALM 16           // good looks after which shorter steps become longer again
