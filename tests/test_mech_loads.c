@@ -58,7 +58,8 @@ static void lay(loaded *l, int nodes, bool normal, double stiffness, double damp
 static void forces(loaded *l)
 {
   memset(l->force, 0, COUNT * sizeof *l->force);
-  vsc_loads_force(&l->model, l->x, l->v, 0, 1, l->force);
+  vsc_loads_push(&l->model, l->x, 0, 1, l->force);
+  vsc_loads_hold(&l->model, l->x, l->v, l->force);
 }
 
 static void close_loaded(loaded *l)
@@ -182,7 +183,8 @@ static void difference(loaded *l, double load, double a, double b, dense *D)
       l->x[j] += a * way;
       l->v[j] += b * way;
       memset(l->force, 0, COUNT * sizeof *l->force);
-      vsc_loads_force(&l->model, l->x, l->v, 0, load, l->force);
+      vsc_loads_push(&l->model, l->x, 0, load, l->force);
+      vsc_loads_hold(&l->model, l->x, l->v, l->force);
       memcpy(f[side], l->force, sizeof f[side]);
       l->x[j] -= a * way;
       l->v[j] -= b * way;

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mech/element.h"
 
-#include <math.h>
 #include <string.h>
-
-#include "model/law_active.h"
 
 static void paper_law(const vsc_model *model, const vsc_patch *patch, size_t k, vsc_pack_law *law)
 {
@@ -53,22 +50,4 @@ vsc_pack_law vsc_pack_law_of(const vsc_model *model, const vsc_patch *patch, siz
                             patch->mixed ? vsc_pack_mixture(model, patch, k) : NULL);
   if (patch->law_data) paper_law(model, patch, k, &law);
   return law;
-}
-
-double vsc_active_tension(const vsc_material *material, const vsc_pack_law *law, int lane, double a,
-                          const vsc_wide3 g[3], double *way)
-{
-  double square[3];
-  for (int i = 0; i < 3; i++) square[i] = vsc_wide_dot(g[i], g[i])[lane];
-  const double stretch = sqrt(square[0]);
-  if (material->active == VSC_ACTIVE_TENSION) {
-    const double *part = material->tension_parts;
-    *way = 0.5 * (square[0] - 1 + part[0] * (square[1] - 1) + part[1] * (square[2] - 1));
-    return law->share[lane] * vsc_tension_of(material, vsc_splat(a), vsc_splat(stretch))[lane];
-  }
-  const double passive = law->springs.axial[0][lane];
-  const double E = passive + a * (law->active_axial[lane] - passive);
-  const double rest = 1 - a * (1 - material->rest_stretch);
-  *way = stretch;
-  return E * (stretch - rest) - passive * (stretch - 1);
 }

@@ -4,6 +4,7 @@
 #define VSC_MECH_ELEMENT_H
 
 #include "mech/state.h"
+#include "model/law_active.h"
 #include "model/law_springs.h"
 
 // Corner positions (or velocities) of four parts, from node x 4 numbers in the model's order.
@@ -28,18 +29,14 @@ VSC_INLINE void vsc_pack_axes(const vsc_model *model, const vsc_patch *patch, si
   const vsc_frame *frame = vsc_pack_frames(model, patch, k) + q;
   const int corners = vsc_family_corners(patch->family);
   vsc_wide3 h[3] = {0};
-  for (int l = 0; l < VSC_WIDTH; l++) {
-    const double *first = nodes + 4 * (size_t)vsc_node_of(model, patch, node[0][l]);
-    for (int c = 1; c < corners; c++) {
-      const double *x = nodes + 4 * (size_t)vsc_node_of(model, patch, node[c][l]);
-      for (int i = 0; i < 3; i++) {
-        // sum_c D_c = 0: seen from the first corner, so that distant bodies lose no digits
-        const double D = model->rules[patch->family].D[q][i][c];
-        h[i].x[l] += D * (x[0] - first[0]);
-        h[i].y[l] += D * (x[1] - first[1]);
-        h[i].z[l] += D * (x[2] - first[2]);
-      }
-    }
+  vsc_wide3 first, x;
+  vsc_pack_corners(model, patch, node, 1, nodes, &first);
+  for (int c = 1; c < corners; c++) {
+    // sum_c D_c = 0: seen from the first corner, so that distant bodies lose no digits
+    vsc_pack_corners(model, patch, node + c, 1, nodes, &x);
+    const vsc_wide3 way = vsc_wide_minus(x, first);
+    for (int i = 0; i < 3; i++)
+      h[i] = vsc_wide_add(h[i], vsc_wide_scale(vsc_splat(model->rules[patch->family].D[q][i][c]), way));
   }
   for (int a = 0; a < 3; a++)
     g[a] = vsc_wide_combine(frame->T[a][0], h[0], frame->T[a][1], h[1], frame->T[a][2], h[2]);
@@ -69,10 +66,30 @@ vsc_pack_law vsc_material_law(const vsc_material *material);
 // Not inlined: called once for a pack.
 vsc_pack_law vsc_pack_law_of(const vsc_model *model, const vsc_patch *patch, size_t k);
 
-// Active tension of one frame (`lane` of a pack with the given law) with axes g at activation `a`,
-// kPa: T, or what the active spring adds to the passive one, E_f(t) (|g_f| - r(t)) - E_f (|g_f| - 1).
-// Along `way` it works: T d(E_ff + k_s E_ss + k_n E_nn), or that force d|g_f|; per volume at rest.
-double vsc_active_tension(const vsc_material *material, const vsc_pack_law *law, int lane, double a,
-                          const vsc_wide3 g[3], double *way);
+// Activation of pack `k` of a patch at this time.
+VSC_INLINE vsc_wide vsc_pack_activation(const vsc_model *model, const vsc_material *material, size_t k, double time)
+{
+  vsc_wide a = vsc_splat(vsc_model_activation(model, material, VSC_WIDTH * k, time));
+  for (size_t l = 1; (model->amplitude != NULL || model->delay != NULL) && l < VSC_WIDTH; l++)
+    a[l] = vsc_model_activation(model, material, VSC_WIDTH * k + l, time);
+  return a;
+}
+
+// Active tension of four frames of the given law with axes g at activation `a`, kPa: T, or what the active spring
+// adds to the passive one, E_f(t) (|g_f| - r(t)) - E_f (|g_f| - 1). Along `way` it works:
+// T d(E_ff + k_s E_ss + k_n E_nn), or that force d|g_f|; per volume at rest.
+VSC_INLINE vsc_wide vsc_active_tension(const vsc_material *material, const vsc_pack_law *law, vsc_wide a,
+                                       const vsc_wide3 g[3], vsc_wide *way)
+{
+  const vsc_wide square = vsc_wide_dot(g[0], g[0]), stretch = vsc_wide_sqrt(square);
+  if (material->active == VSC_ACTIVE_TENSION) {
+    const double *part = material->tension_parts;
+    *way = 0.5 * (square - 1 + part[0] * (vsc_wide_dot(g[1], g[1]) - 1) + part[1] * (vsc_wide_dot(g[2], g[2]) - 1));
+    return law->share * vsc_tension_of(material, a, stretch);
+  }
+  const vsc_wide passive = law->springs.axial[0], E = passive + a * (law->active_axial - passive);
+  *way = stretch;
+  return E * (stretch - (1 - a * (1 - material->rest_stretch))) - passive * (stretch - 1);
+}
 
 #endif

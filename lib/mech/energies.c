@@ -17,13 +17,6 @@ static vsc_wide per_length(vsc_wide number, vsc_wide length)
   return vsc_where(long_enough, number / vsc_select(long_enough, length, vsc_splat(1)));
 }
 
-static vsc_wide volume_energy(vsc_wide K, vsc_wide J)
-{
-  vsc_wide energy;
-  for (int l = 0; l < VSC_WIDTH; l++) energy[l] = vsc_volume_energy(K[l], J[l]);
-  return energy;
-}
-
 static vsc_wide3 along_axis(const double d[3], const vsc_wide3 g[3])
 {
   return vsc_wide_combine(vsc_splat(d[0]), g[0], vsc_splat(d[1]), g[1], vsc_splat(d[2]), g[2]);
@@ -101,7 +94,7 @@ static void add_law(const vsc_model *model, const vsc_material *material, const 
     add_springs(model, material, law, V, g, rate, sum);
   else
     add_tissue(material, V, g, sum);
-  sum->dissipation += V * viscous_power(law->viscosity, g, rate);
+  if (model->terms.damping) sum->dissipation += V * viscous_power(law->viscosity, g, rate);
 }
 
 vsc_pack_energies vsc_edge_energies_of(const vsc_model *model, const vsc_edge_work *work, size_t k)
@@ -115,30 +108,28 @@ vsc_pack_energies vsc_edge_energies_of(const vsc_model *model, const vsc_edge_wo
   return sum;
 }
 
-static vsc_pack_energies cells(const vsc_model *model, const vsc_patch *patch, size_t k,
-                               const double *x, const double *v)
+static vsc_pack_energies cells(const vsc_model *model, const vsc_patch *patch, size_t k, const vsc_pack_law *law,
+                               vsc_wide3 (*axes)[3], const double *v)
 {
   const vsc_material *material = &model->materials[patch->material];
-  const vsc_pack_law law = vsc_pack_law_of(model, patch, k);
   const vsc_frame *frames = vsc_pack_frames(model, patch, k);
   const int points = vsc_family_frames(model, patch->family);
   vsc_pack_energies sum = {0};
   vsc_wide rest = vsc_splat(0), now = vsc_splat(0);
   for (int q = 0; q < points; q++) {
     const vsc_wide V = frames[q].V;
-    vsc_wide3 g[3], rate[3] = {0};
-    vsc_pack_axes(model, patch, k, q, x, g);
+    vsc_wide3 rate[3] = {0};
     if (model->terms.damping) vsc_pack_axes(model, patch, k, q, v, rate);
-    const vsc_wide J = vsc_pack_ratio(g);
-    if (!patch->smoothed) add_law(model, material, &law, V, g, rate, &sum);
+    const vsc_wide J = vsc_pack_ratio(axes[q]);
+    if (!patch->smoothed) add_law(model, material, law, V, axes[q], rate, &sum);
     sum.volume +=
-        V * volume_energy(patch->family == VSC_TETS ? law.element_modulus : law.stabilization, J);
+        V * vsc_volume_energies(patch->family == VSC_TETS ? law->element_modulus : law->stabilization, J);
     rest += V;
     now += V * J;
   }
   if (patch->family != VSC_TETS) {
     const vsc_wide J = vsc_select(rest > 0, now / vsc_select(rest > 0, rest, vsc_splat(1)), vsc_splat(1));
-    sum.volume += rest * volume_energy(law.volume_modulus, J);
+    sum.volume += rest * vsc_volume_energies(law->volume_modulus, J);
   }
   return sum;
 }
@@ -163,7 +154,7 @@ static void add_paper_axes(const vsc_paper_def *paper, const vsc_wide3 l[3], con
 }
 
 static vsc_pack_energies paper_cells(const vsc_model *model, const vsc_patch *patch, size_t k,
-                                     const double *x, const double *v)
+                                     vsc_wide3 (*frame)[3], const double *x, const double *v)
 {
   const vsc_paper_def *paper = &model->materials[patch->material].paper;
   const bool tets = patch->family == VSC_TETS;
@@ -175,10 +166,9 @@ static vsc_pack_energies paper_cells(const vsc_model *model, const vsc_patch *pa
   vsc_pack_corners(model, patch, vsc_pack_nodes(model, patch, k), corners, x, at);
   vsc_pack_corners(model, patch, vsc_pack_nodes(model, patch, k), corners, v, speed);
   if (tets) {
-    vsc_pack_axes(model, patch, k, 0, x, l);
     vsc_pack_axes(model, patch, k, 0, v, rate);
     for (int a = 0; a < 3; a++) {
-      l[a] = vsc_wide_scale(chords->r[a], l[a]);
+      l[a] = vsc_wide_scale(chords->r[a], frame[0][a]);
       rate[a] = vsc_wide_scale(chords->r[a], rate[a]);
     }
   }
@@ -270,18 +260,24 @@ static vsc_pack_energies bends(const vsc_model *model, const vsc_patch *patch, s
                              .dissipation = lag * vsc_bend_square(&pack->bends, rates)};
 }
 
-vsc_pack_energies vsc_pack_energies_of(const vsc_model *model, const vsc_patch *patch, size_t k,
-                                       const double *x, const double *v)
+vsc_pack_energies vsc_surface_energies_of(const vsc_model *model, const vsc_patch *patch, size_t k,
+                                          const double *x, const double *v)
 {
   if (patch->family == VSC_TRIANGLES) return triangles(model, patch, k, x, v);
   if (patch->family == VSC_BENDS) return bends(model, patch, k, x, v);
-  if (patch->family == VSC_SPRINGS_ON_EDGES) return edge_springs(model, patch, k, x, v);
+  return edge_springs(model, patch, k, x, v);
+}
+
+vsc_pack_energies vsc_cell_energies_of(const vsc_model *model, const vsc_patch *patch, size_t k,
+                                       const vsc_pack_law *law, vsc_wide3 (*axes)[3], const double *x,
+                                       const double *v)
+{
   switch (model->materials[patch->material].law) {
     case VSC_LAW_PAPER:
-      return paper_cells(model, patch, k, x, v);
+      return paper_cells(model, patch, k, axes, x, v);
     case VSC_LAW_CLASSICAL:
       return (vsc_pack_energies){0};
     default:
-      return cells(model, patch, k, x, v);
+      return cells(model, patch, k, law, axes, v);
   }
 }

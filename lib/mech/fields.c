@@ -77,7 +77,11 @@ static element_means mean_of_frames(const vsc_model *model, const vsc_state *sta
   const vsc_material *material = &model->materials[patch->material];
   const bool active = material->active != VSC_ACTIVE_NONE;
   vsc_pack_law law;
-  if (active) law = vsc_pack_law_of(model, patch, k);
+  vsc_wide activation = vsc_splat(0);
+  if (active) {
+    law = vsc_pack_law_of(model, patch, k);
+    activation = vsc_pack_activation(model, material, k, state->time);
+  }
   element_means mean = {0};
   for (int q = 0; q < vsc_family_frames(model, patch->family); q++) {
     const vsc_wide V = vsc_pack_frames(model, patch, k)[q].V;
@@ -88,13 +92,8 @@ static element_means mean_of_frames(const vsc_model *model, const vsc_state *sta
     mean.J += V * vsc_pack_ratio(g);
     mean.stretch += V * frame.length[0];
     mean.volume += V;
-    for (int l = 0; active && l < VSC_WIDTH; l++) {
-      const size_t slot = VSC_WIDTH * k + (size_t)l;
-      double way;
-      if (model->mesh_element[slot] == VSC_NO_ELEMENT) continue;
-      const double a = vsc_model_activation(model, material, slot, state->time);
-      mean.tension[l] += V[l] * vsc_active_tension(material, &law, l, a, g, &way);
-    }
+    vsc_wide way;
+    if (active) mean.tension += V * vsc_active_tension(material, &law, activation, g, &way);
   }
   return mean;
 }

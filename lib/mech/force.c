@@ -207,37 +207,60 @@ static void patch_force(void *context, size_t p, int thread)
   vsc_put_forces(patch, local.f, e->force, e->scratch->partial);
 }
 
-// What the pieces of a sum over shared nodes share.
-typedef struct shared_sum {
+// Loads on surfaces, which add to the same nodes as patches do, have a memory of their own, and are the first piece.
+static void load_or_patch(void *context, size_t piece, int thread)
+{
+  const evaluation *e = context;
+  double *outside = e->scratch->outside;
+  if (outside == NULL || piece > 0) {
+    patch_force(context, piece - (outside != NULL), thread);
+    return;
+  }
+  memset(outside, 0, 4 * e->model->node_count * sizeof *outside);
+  vsc_loads_push(e->model, e->x, e->time, e->scratch->load, outside);
+}
+
+// A pass over the nodes from `first` on.
+typedef struct node_pass {
   const vsc_model *model;
+  const vsc_scratch *scratch;
   const double *partial;
   double *force;
-} shared_sum;
+  size_t first;
+} node_pass;
 
-// Adds the parts of the forces on shared nodes in the order of the patches.
+static void for_nodes(node_pass *pass, vsc_piece *work)
+{
+  const size_t count = pass->model->node_count - pass->first;
+  vsc_parallel_for((count + NODES_PER_PIECE - 1) / NODES_PER_PIECE, work, pass);
+}
+
+static size_t piece_end(const node_pass *pass, size_t piece)
+{
+  const size_t end = pass->first + (piece + 1) * NODES_PER_PIECE;
+  return end < pass->model->node_count ? end : pass->model->node_count;
+}
+
 static void sum_shared(void *context, size_t piece, int thread)
 {
   (void)thread;
-  const shared_sum *s = context;
-  const vsc_model *model = s->model;
-  const size_t shared_nodes = model->node_count - model->own_node_count;
-  size_t end = (piece + 1) * NODES_PER_PIECE;
-  if (end > shared_nodes) end = shared_nodes;
-  const vsc_wide *partial = (const vsc_wide *)s->partial;
-  vsc_wide *force = (vsc_wide *)s->force + model->own_node_count;
-  for (size_t n = piece * NODES_PER_PIECE; n < end; n++) {
-    vsc_wide sum = vsc_splat(0);
-    for (uint32_t k = model->sum_start[n]; k < model->sum_start[n + 1]; k++)
-      sum += partial[model->sum_place[k]];
-    force[n] = sum;
-  }
+  const node_pass *s = context;
+  for (size_t n = s->first + piece * NODES_PER_PIECE, end = piece_end(s, piece); n < end; n++)
+    ((vsc_wide *)s->force)[n] = vsc_shared_force(s->model, s->partial, n);
 }
 
 void vsc_sum_shared(const vsc_model *model, const double *partial, double *force)
 {
-  shared_sum sum = {model, partial, force};
-  const size_t shared_nodes = model->node_count - model->own_node_count;
-  vsc_parallel_for((shared_nodes + NODES_PER_PIECE - 1) / NODES_PER_PIECE, sum_shared, &sum);
+  node_pass pass = {.model = model, .partial = partial, .force = force, .first = model->own_node_count};
+  for_nodes(&pass, sum_shared);
+}
+
+static void sum_all(void *context, size_t piece, int thread)
+{
+  (void)thread;
+  const node_pass *s = context;
+  for (size_t n = s->first + piece * NODES_PER_PIECE, end = piece_end(s, piece); n < end; n++)
+    ((vsc_wide *)s->force)[n] = vsc_node_force(s->model, s->scratch, s->force, n);
 }
 
 // The volumes of all groups; those of patches that are still only once.
@@ -247,16 +270,24 @@ static void sum_volumes(evaluation *e)
   e->scratch->still_known = true;
 }
 
-void vsc_force(const vsc_model *model, const double *x, const double *w, double time,
-               vsc_scratch *scratch, double *force)
+void vsc_force_parts(const vsc_model *model, const double *x, const double *w, double time,
+                     vsc_scratch *scratch, double *force)
 {
   const vsc_terms *terms = &model->terms;
   evaluation e = {model, x, w, time, scratch, force};
   if (terms->nodal_volume) sum_volumes(&e);
   if (terms->smoothed) vsc_smoothed_stress(model, x, w, time, scratch);
-  vsc_parallel_for(model->patch_count, patch_force, &e);
-  vsc_sum_shared(model, scratch->partial, force);
-  vsc_loads_force(model, x, w, time, scratch->load, force);
+  vsc_parallel_for(model->patch_count + (scratch->outside != NULL), load_or_patch, &e);
+  vsc_loads_hold(model, x, w, scratch->outside);
+}
+
+void vsc_force(const vsc_model *model, const double *x, const double *w, double time,
+               vsc_scratch *scratch, double *force)
+{
+  const bool all = scratch->outside != NULL || model->terms.gravity;
+  node_pass pass = {model, scratch, scratch->partial, force, all ? 0 : model->own_node_count};
+  vsc_force_parts(model, x, w, time, scratch, force);
+  for_nodes(&pass, sum_all);
 }
 
 vsc_patch_work vsc_patch_prepare(const vsc_model *model, const vsc_patch *patch, const double *x,

@@ -265,17 +265,18 @@ double vsc_loads_dissipation(const vsc_model *model, const double *v)
 
 // ---- all
 
-void vsc_loads_force(const vsc_model *model, const double *x, const double *w, double time,
-                     double load, double *force)
+void vsc_loads_push(const vsc_model *model, const double *x, double time, double load, double *force)
 {
   for (size_t p = 0; p < model->pressure_count; p++) {
     const double pressure = load * vsc_model_pressure(model, p, time);
     if (pressure != 0) add_pressure(model, &model->pressures[p], pressure, x, force);
   }
+}
+
+void vsc_loads_hold(const vsc_model *model, const double *x, const double *w, double *force)
+{
   for (size_t r = 0; r < model->robin_count; r++)
     add_bed(model, &model->robins[r], x, model->robins[r].damping > 0 ? w : NULL, force);
-  if (model->terms.gravity)
-    for (size_t i = 0; i < 4 * model->node_count; i++) force[i] += load * model->weight[i];
 }
 
 void vsc_loads_tangent(const vsc_model *model, const double *x, double time, double load,

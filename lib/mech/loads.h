@@ -10,11 +10,13 @@
 // Takes a 3 x 3 block (row-major) of the derivative of the force on node i by what node j does.
 typedef void vsc_block_sink(void *context, uint32_t i, uint32_t j, const double K[9]);
 
-// Adds to `force` (mN, node_count x 4) all loads at positions x and velocities w (node_count x 4; w may be
-// NULL when nothing is damped) and `time` (ms); of pressures and weight the part `load` (1: all). Sums run
-// in an order that does not depend on the number of threads.
-void vsc_loads_force(const vsc_model *model, const double *x, const double *w, double time,
-                     double load, double *force);
+// Adds to `force` (mN, node_count x 4) the part `load` (1: all) of the pressures at positions x (node_count x 4) and
+// `time` (ms).
+void vsc_loads_push(const vsc_model *model, const double *x, double time, double load, double *force);
+
+// Adds to `force` what springs and dashpots on surfaces do at positions x and velocities w (node_count x 4; w may be
+// NULL when nothing is damped). Sums run in an order that does not depend on the number of threads.
+void vsc_loads_hold(const vsc_model *model, const double *x, const double *w, double *force);
 
 // stiffness_factor d(-f)/dx + damping_factor d(-f)/dv of pressures, springs and dashpots at positions x
 // (node_count x 4) and `time` (ms), with the part `load` of the pressures, handed to `sink` in blocks of two nodes of one face; both orders i, j

@@ -47,58 +47,62 @@ typedef struct observation {
   vsc_ledger *ledger;
 } observation;
 
-// Active tension of one frame: its range, and its work since the last call. `place` is where the
-// ledger keeps the frame.
-static void add_active(const observation *o, const vsc_material *material, const vsc_pack_law *law,
-                       int lane, double activation, size_t place, double V,
-                       const vsc_wide3 g[3], vsc_totals *part)
+// Active tension of four frames: its range, and its work since the last call. `place` is where the
+// ledger keeps the first, `taken` says which are there.
+static void add_active(const observation *o, vsc_wide tension, vsc_wide way, vsc_wide V, size_t place,
+                       const bool taken[VSC_WIDTH], vsc_totals *part)
 {
   vsc_ledger *ledger = o->ledger;
-  double way;
-  const double tension = vsc_active_tension(material, law, lane, activation, g, &way);
-  part->tension_high = fmax(part->tension_high, tension);
-  part->tension_mean += V * tension;
-  // a tension that shortens the fibre does work
-  part->active_work -=
-      V * 0.5 * (tension + ledger->tension[place]) * (way - ledger->way[place]);
-  ledger->way[place] = way;
-  ledger->tension[place] = tension;
+  for (size_t l = 0; l < VSC_WIDTH; l++) {
+    if (!taken[l]) continue;
+    part->tension_high = fmax(part->tension_high, tension[l]);
+    part->tension_mean += V[l] * tension[l];
+    // a tension that shortens the fibre does work
+    part->active_work -= V[l] * 0.5 * (tension[l] + ledger->tension[place + l]) * (way[l] - ledger->way[place + l]);
+    ledger->way[place + l] = way[l];
+    ledger->tension[place + l] = tension[l];
+  }
+}
+
+// What one pack of frames shows: volume ratios, stretches.
+static void add_frames(const vsc_model *model, size_t k, vsc_wide V, const vsc_wide3 g[3],
+                       const bool taken[VSC_WIDTH], bool inverted[VSC_WIDTH], vsc_totals *part)
+{
+  const vsc_wide J = vsc_pack_ratio(g), stretch = vsc_wide_sqrt(vsc_wide_dot(g[0], g[0]));
+  for (size_t l = 0; l < VSC_WIDTH; l++) {
+    if (!taken[l]) continue;
+    part->volume += V[l] * J[l];
+    part->J_low = fmin(part->J_low, J[l]);
+    part->J_high = fmax(part->J_high, J[l]);
+    inverted[l] |= J[l] <= 0;
+    if (!model->known[VSC_WIDTH * k + l]) continue;
+    part->stretch_low = fmin(part->stretch_low, stretch[l]);
+    part->stretch_high = fmax(part->stretch_high, stretch[l]);
+    part->stretch_mean += V[l] * stretch[l];
+    part->known_volume += V[l];
+  }
 }
 
 // What the frames of one pack of cells show: volume ratios, stretches, active tension.
-static void observe_frames(const observation *o, const vsc_patch *patch, size_t k, vsc_totals *part)
+static void observe_frames(const observation *o, const vsc_patch *patch, size_t k, const vsc_pack_law *law,
+                           vsc_wide3 (*axes)[3], vsc_totals *part)
 {
   const vsc_model *model = o->model;
   const vsc_material *material = &model->materials[patch->material];
+  const size_t points = (size_t)vsc_family_frames(model, patch->family);
   const bool active = material->active != VSC_ACTIVE_NONE && !patch->smoothed;
-  const int points = vsc_family_frames(model, patch->family);
-  vsc_pack_law law;
-  if (active) law = vsc_pack_law_of(model, patch, k);
-  bool inverted[VSC_WIDTH] = {false};
-  for (int q = 0; q < points; q++) {
-    vsc_wide3 g[3];
-    vsc_pack_axes(model, patch, k, q, o->state->x, g);
-    const vsc_wide V = vsc_pack_frames(model, patch, k)[q].V, J = vsc_pack_ratio(g);
-    const vsc_wide stretch = vsc_wide_sqrt(vsc_wide_dot(g[0], g[0]));
-    const size_t frame = patch->first_frame + (k - patch->first_pack) * (size_t)points + (size_t)q;
-    for (int l = 0; l < VSC_WIDTH; l++) {
-      const size_t slot = VSC_WIDTH * k + (size_t)l;
-      if (model->mesh_element[slot] == VSC_NO_ELEMENT) continue;
-      part->volume += V[l] * J[l];
-      part->J_low = fmin(part->J_low, J[l]);
-      part->J_high = fmax(part->J_high, J[l]);
-      inverted[l] |= J[l] <= 0;
-      if (model->known[slot]) {
-        part->stretch_low = fmin(part->stretch_low, stretch[l]);
-        part->stretch_high = fmax(part->stretch_high, stretch[l]);
-        part->stretch_mean += V[l] * stretch[l];
-        part->known_volume += V[l];
-      }
-      if (active)
-        add_active(o, material, &law, l,
-                   vsc_model_activation(model, material, slot, o->state->time),
-                   VSC_WIDTH * frame + (size_t)l, V[l], g, part);
-    }
+  vsc_wide activation = vsc_splat(0);
+  bool taken[VSC_WIDTH], inverted[VSC_WIDTH] = {false};
+  if (active) activation = vsc_pack_activation(model, material, k, o->state->time);
+  for (size_t l = 0; l < VSC_WIDTH; l++) taken[l] = model->mesh_element[VSC_WIDTH * k + l] != VSC_NO_ELEMENT;
+  for (size_t q = 0; q < points; q++) {
+    const vsc_wide V = vsc_pack_frames(model, patch, k)[q].V;
+    add_frames(model, k, V, axes[q], taken, inverted, part);
+    if (!active) continue;
+    vsc_wide way;
+    const vsc_wide tension = vsc_active_tension(material, law, activation, axes[q], &way);
+    const size_t frame = patch->first_frame + (k - patch->first_pack) * points + q;
+    add_active(o, tension, way, V, VSC_WIDTH * frame, taken, part);
   }
   for (int l = 0; l < VSC_WIDTH; l++) part->inverted += inverted[l];
 }
@@ -116,14 +120,6 @@ static void add_energies(const vsc_pack_energies *energies, vsc_totals *part)
   }
 }
 
-static void observe_pack(const observation *o, const vsc_patch *patch, size_t k, vsc_totals *part)
-{
-  const vsc_pack_energies energies =
-      vsc_pack_energies_of(o->model, patch, k, o->state->x, o->state->v);
-  add_energies(&energies, part);
-  if (vsc_patch_is_solid(patch)) observe_frames(o, patch, k, part);
-}
-
 static vsc_totals empty_totals(void)
 {
   return (vsc_totals){.J_low = DBL_MAX,
@@ -134,6 +130,31 @@ static vsc_totals empty_totals(void)
                       .group_high = 1};
 }
 
+static void observe_surfaces(const observation *o, const vsc_patch *patch, vsc_totals *part)
+{
+  for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++) {
+    const vsc_pack_energies energies = vsc_surface_energies_of(o->model, patch, k, o->state->x, o->state->v);
+    add_energies(&energies, part);
+  }
+}
+
+static void observe_cells(const observation *o, const vsc_patch *patch, vsc_totals *part)
+{
+  const vsc_model *model = o->model;
+  const double *x = o->state->x, *v = o->state->v;
+  const int points = vsc_family_frames(model, patch->family);
+  vsc_wide3 axes[VSC_MOST_POINTS][3];
+  vsc_pack_law law;
+  for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++) {
+    const bool own = patch->mixed || patch->law_data != 0;
+    if (own || k == patch->first_pack) law = vsc_pack_law_of(model, patch, k);
+    for (int q = 0; q < points; q++) vsc_pack_axes(model, patch, k, q, x, axes[q]);
+    const vsc_pack_energies energies = vsc_cell_energies_of(model, patch, k, &law, axes, x, v);
+    add_energies(&energies, part);
+    observe_frames(o, patch, k, &law, axes, part);
+  }
+}
+
 static void observe_patch(void *context, size_t p, int thread)
 {
   (void)thread;
@@ -141,8 +162,24 @@ static void observe_patch(void *context, size_t p, int thread)
   const vsc_patch *patch = &o->model->patches[p];
   vsc_totals *part = &o->ledger->parts[p];
   *part = empty_totals();
-  for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++)
-    observe_pack(o, patch, k, part);
+  if (vsc_patch_is_solid(patch))
+    observe_cells(o, patch, part);
+  else
+    observe_surfaces(o, patch, part);
+}
+
+// Active tension of the four edges from `edge` on.
+static void observe_edge_tension(const observation *o, const vsc_edge_work *work, const vsc_pack_law *law, size_t edge,
+                                 vsc_wide V, const vsc_wide3 g[3], vsc_totals *part)
+{
+  vsc_wide activation = vsc_splat(0), way;
+  bool taken[VSC_WIDTH];
+  for (size_t l = 0; l < VSC_WIDTH; l++) {
+    activation[l] = vsc_model_edge_activation(o->model, work->material, edge + l, o->state->time);
+    taken[l] = V[l] > 0;
+  }
+  const vsc_wide tension = vsc_active_tension(work->material, law, activation, g, &way);
+  add_active(o, tension, way, V, VSC_WIDTH * o->model->frame_count + edge, taken, part);
 }
 
 // The laws of smoothed tets, and their active tension, on a block of edges.
@@ -163,13 +200,7 @@ static void observe_edges(void *context, size_t b, int thread)
     add_energies(&energies, part);
     vsc_wide3 g[3];
     if (active) vsc_edge_axes(&work, k, work.gradient, g);
-    for (int l = 0; active && l < VSC_WIDTH; l++) {
-      const size_t edge = VSC_WIDTH * (block->first_pack + k) + (size_t)l;
-      const double V = work.frames[k].V[l];
-      if (V == 0) continue;
-      const double a = vsc_model_edge_activation(model, work.material, edge, o->state->time);
-      add_active(o, work.material, &law, l, a, VSC_WIDTH * model->frame_count + edge, V, g, part);
-    }
+    if (active) observe_edge_tension(o, &work, &law, VSC_WIDTH * (block->first_pack + k), work.frames[k].V, g, part);
   }
 }
 

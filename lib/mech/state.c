@@ -63,6 +63,11 @@ static bool allocate(const vsc_model *model, vsc_state *state)
          VSC_NEW(state->prony, vsc_prony_size(model));
 }
 
+static bool allocate_outside(const vsc_model *model, vsc_scratch *scratch)
+{
+  return model->pressure_count + model->robin_count == 0 || VSC_NEW(scratch->outside, 4 * model->node_count);
+}
+
 static bool allocate_multipliers(const vsc_model *model, vsc_scratch *scratch)
 {
   if (!(model->solve.incompressible > 0)) return true;
@@ -74,7 +79,8 @@ vsc_status vsc_state_create(const vsc_model *model, vsc_state **state, vsc_error
 {
   *state = NULL;
   vsc_state *made;
-  if (!VSC_NEW(made, 1) || !allocate(model, made) || !allocate_multipliers(model, &made->scratch)) {
+  if (!VSC_NEW(made, 1) || !allocate(model, made) || !allocate_outside(model, &made->scratch) ||
+      !allocate_multipliers(model, &made->scratch)) {
     vsc_state_free(made);
     return vsc_fail_memory(error, "the state of the simulation");
   }
@@ -110,6 +116,7 @@ void vsc_state_free(vsc_state *state)
   vsc_free(state->limit.mode);
   vsc_free(state->scratch.local);
   vsc_free(state->scratch.partial);
+  vsc_free(state->scratch.outside);
   vsc_free(state->scratch.volume);
   vsc_free(state->scratch.partial_volume);
   vsc_free(state->scratch.gradient);

@@ -31,6 +31,7 @@ typedef struct vsc_scratch {
   size_t local_size;
   int threads;
   double *partial;         // partial_count x 4: parts of the forces on shared nodes, mN
+  double *outside;         // node_count x 4: forces of loads on surfaces, mN; NULL where there are none
   double *volume;          // node_count: deformed volume of the nodes' groups (own nodes), mm^3
   double *partial_volume;  // partial_count: parts of the same for shared nodes
   bool still_known;        // whether these have what patches that are still give to them
@@ -44,6 +45,9 @@ typedef struct vsc_scratch {
                             // frames
   double *trial;  // node_count x 4 x 3: positions, velocities and forces of the step estimate
 } vsc_scratch;
+
+// How a node touches obstacles. One that leaves still lies on an obstacle, which no longer stops it.
+typedef enum vsc_touching { VSC_APART, VSC_TOUCHES, VSC_TOUCHES_SEVERAL, VSC_LEAVES } vsc_touching;
 
 // What an obstacle has done to the nodes since the start.
 typedef struct vsc_contact_sums {
@@ -74,10 +78,9 @@ typedef struct vsc_state {
   double *v;      // node_count x 4: velocity, mm/ms; owned
   double *a;      // node_count x 4: acceleration at x, v, time, mm/ms^2; owned
   double *past_a; // node_count x 4: acceleration a step before a; explicit steps with damping, owned
-  double *force;  // node_count x 4: total force behind a, mN; owned
+  double *force;  // node_count x 4: total force behind a, or what vsc_force_parts leaves there, mN; owned
   vsc_contact_sums *contact;  // obstacle_count; owned
-  uint8_t *contact_count;     // node_count: obstacles that the node touched in the last step: 0, 1,
-                              // or 2 for several; only with obstacles, owned
+  uint8_t *contact_count;     // node_count: a vsc_touching of each node in the last step; only with obstacles, owned
   double *former;             // node_count x 4: velocities in the middle of the last step; likewise
   double *pending;            // node_count x 4: impulses of contact whose work is not counted yet,
                               // mN ms, and the work of the obstacles behind them, uJ; likewise

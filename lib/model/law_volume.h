@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-#include "base/wide.h"
+#include "base/wide_math.h"
 
 #define VSC_VOLUME_J0 0.2
 #define VSC_VOLUME_SLOPE0 (0.5 * (1 + 1 / (VSC_VOLUME_J0 * VSC_VOLUME_J0)))  // U''(J0)/K
@@ -60,13 +60,19 @@ static inline double vsc_rest_energy(double m, double J)
 }
 
 // U(J), kPa = uJ/mm^3.
+VSC_INLINE vsc_wide vsc_volume_energies(vsc_wide K, vsc_wide J)
+{
+  const vsc_wide J0 = vsc_splat(VSC_VOLUME_J0);
+  const vsc_wide kept = vsc_select(J > J0, J, J0), below = J - kept;
+  const vsc_wide slope = 0.5 * (kept - 1.0 / kept);
+  return K * (0.25 * (kept * kept - 1 - 2 * vsc_wide_log(kept)) + slope * below +
+              0.5 * VSC_VOLUME_SLOPE0 * below * below);
+}
+
+// Of one.
 static inline double vsc_volume_energy(double K, double J)
 {
-  const double kept = J > VSC_VOLUME_J0 ? J : VSC_VOLUME_J0;
-  const double below = J - kept;
-  const double slope = 0.5 * (kept - 1 / kept);
-  return K * (0.25 * (kept * kept - 1 - 2 * log(kept)) + slope * below +
-              0.5 * VSC_VOLUME_SLOPE0 * below * below);
+  return vsc_volume_energies(vsc_splat(K), vsc_splat(J))[0];
 }
 
 #endif
