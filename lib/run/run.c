@@ -14,7 +14,7 @@
 #include "run/prestress.h"
 #include "solve/solve.h"
 
-#define LONGEST_LOOK 1.0  // ms between two looks of the energy ledger,
+#define USUAL_LOOK 1.0    // ms between two looks of the energy ledger,
 #define STEPS_OF_LOOK 32  // or as many steps, whichever is longer
 #define CLOSER 16         // looks in place of one that did not balance
 #define TURNS 4           // how often a way is gone again
@@ -288,10 +288,11 @@ static void resolve(const vsc_curve *curve, double *look)
   if (curve->period > 0) *look = fmin(*look, curve->period / LOOKS_PER_PERIOD);
 }
 
-// The longest way between two looks of the ledger, ms; looks cost as much as some steps.
-static double longest_look(const vsc_model *model, const vsc_state *state)
+// The way between two looks of the ledger, ms, before it is fitted to the rows of signals; looks cost as much as some
+// steps.
+static double usual_look(const vsc_model *model, const vsc_state *state)
 {
-  double look = fmax(LONGEST_LOOK, STEPS_OF_LOOK * state->limit.first);
+  double look = fmax(USUAL_LOOK, STEPS_OF_LOOK * state->limit.first);
   for (size_t m = 0; m < model->material_count; m++)
     if (model->materials[m].active != VSC_ACTIVE_NONE) resolve(&model->materials[m].curve, &look);
   for (size_t p = 0; p < model->pressure_count; p++) resolve(&model->pressures[p].curve, &look);
@@ -310,7 +311,7 @@ static vsc_status advance(vsc_job *job, double stop, vsc_error *error)
   // the ledger wants its looks, however rare the rows are
   const bool motion = job->problem->model->solve.kind == VSC_SOLVE_EXPLICIT;
   const double look =
-      output->signal_interval / (motion ? ceil(output->signal_interval / longest_look(job->problem->model, state)) : 1);
+      output->signal_interval / (motion ? fmax(round(output->signal_interval / usual_look(job->problem->model, state)), 1) : 1);
   while (state->time < stop * (1 - SAME_TIME) && status == VSC_OK && !repeats(job)) {
     const double before = state->time;
     double next = next_event(before, look, end);
