@@ -7,8 +7,8 @@
 #include "base/vec3.h"
 
 enum { MOST_ROUNDS = 8 };
-// Part of an element's size below which a depth is rounding.
-static const double ROUNDING = 1e-13;
+// Parts of an element's size: below this a depth is rounding; as near as that a node is to all obstacles that it touches.
+static const double ROUNDING = 1e-13, NEAR = 1e-3;
 
 // An obstacle at the end of a step.
 typedef struct pusher {
@@ -43,14 +43,13 @@ static bool rub(const vsc_model *model, uint32_t node, const pusher *p, const do
 }
 
 // Velocity into the obstacle, as it would be without the reaction still to come, is taken away; returns
-// how much that was.
+// how much that was, below 0 where the node leaves.
 static double stop(const pusher *p, const double way[3], double v[3])
 {
   double slip[3];
   vsc_subtract(v, p->speed, slip);
   const double inward = -vsc_dot(slip, way);
-  if (!(inward > 0)) return 0;
-  for (int i = 0; i < 3; i++) v[i] += inward * way[i];
+  for (int i = 0; i < 3 && inward > 0; i++) v[i] += inward * way[i];
   return inward;
 }
 
@@ -108,11 +107,10 @@ static bool put_back(const vsc_model *model, vsc_state *state, uint32_t node, do
     if (stuck) rub(model, node, p, way, INFINITY, predicted);
   }
   count_impulse(model, state, node, before, v, p);
-  // one obstacle, or several
   double *kept = state->contact_normal + 4 * (size_t)node;
   const double number = (double)(p->obstacle - model->obstacles);
-  const bool another = state->contact_count[node] > 0 && kept[3] != number;
-  if (another || state->contact_count[node] == 0) state->contact_count[node] = another ? 2 : 1;
+  uint8_t *touch = &state->contact_count[node];
+  *touch = *touch != VSC_APART && (kept[3] != number || *touch == VSC_TOUCHES_SEVERAL) ? VSC_TOUCHES_SEVERAL : VSC_TOUCHES;
   memcpy(kept, way, sizeof way);
   kept[3] = number;
   return true;
@@ -168,22 +166,39 @@ void vsc_contact_account(const vsc_model *model, vsc_state *state)
   }
 }
 
-void vsc_contact_settle(const vsc_model *model, vsc_state *state, double dt)
+// Whether the node touched this obstacle in the last step.
+static bool touched(const vsc_model *model, const vsc_state *state, uint32_t node, const pusher *p, double gap)
 {
+  const uint8_t touch = state->contact_count[node];
+  if (touch == VSC_APART) return false;
+  if (touch == VSC_TOUCHES_SEVERAL) return gap < NEAR * model->element_size;
+  return state->contact_normal[4 * (size_t)node + 3] == (double)(p->obstacle - model->obstacles);
+}
+
+// Whether the obstacle stops the node.
+static bool settle(const vsc_model *model, vsc_state *state, uint32_t node, double dt, const pusher *p)
+{
+  double *v = state->v + 4 * (size_t)node, normal[3], way[3], before[3];
+  const double gap = vsc_obstacle_gap(p->obstacle, p->point, state->x + 4 * (size_t)node, normal);
+  if (!touched(model, state, node, p, gap)) return false;
+  if (free_part(model->inverse_mass + 4 * (size_t)node, normal, way) < 1e-6) return false;
+  memcpy(before, v, sizeof before);
+  const double inward = stop(p, way, v), rounding = ROUNDING * model->element_size / dt;
+  const bool stops = inward > rounding;
+  if (stops && p->obstacle->friction > 0) rub(model, node, p, way, p->obstacle->friction * inward, v);
+  count_impulse(model, state, node, before, v, p);
+  uint8_t *touch = &state->contact_count[node];
+  if (*touch != VSC_TOUCHES_SEVERAL && fabs(inward) > rounding) *touch = stops ? VSC_TOUCHES : VSC_LEAVES;
+  return stops;
+}
+
+size_t vsc_contact_settle(const vsc_model *model, vsc_state *state, double dt)
+{
+  size_t stopped = 0;
   for (size_t o = 0; o < model->obstacle_count; o++) {
     const pusher p = pusher_of(model, state, o, dt);
-    for (size_t k = 0; k < p.obstacle->node_count; k++) {
-      const uint32_t node = p.obstacle->nodes[k];
-      double *v = state->v + 4 * (size_t)node, normal[3], way[3], before[3];
-      if (state->contact_count[node] == 0) continue;
-      const double gap = vsc_obstacle_gap(p.obstacle, p.point, state->x + 4 * (size_t)node, normal);
-      if (gap > ROUNDING * 10 * model->element_size ||
-          free_part(model->inverse_mass + 4 * (size_t)node, normal, way) < 1e-6)
-        continue;
-      memcpy(before, v, sizeof before);
-      const double inward = stop(&p, way, v);
-      if (p.obstacle->friction > 0) rub(model, node, &p, way, p.obstacle->friction * inward, v);
-      count_impulse(model, state, node, before, v, &p);
-    }
+    for (size_t k = 0; k < p.obstacle->node_count; k++)
+      stopped += settle(model, state, p.obstacle->nodes[k], dt, &p);
   }
+  return stopped;
 }

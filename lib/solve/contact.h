@@ -15,7 +15,7 @@
 // directions do not move. Between several obstacles it goes round until no node is inside any, or 8
 // times. Impulses go to the state's contact sums.
 //
-// state->contact_count (node_count) says whether a node touches no, one (1) or several (2) obstacles
+// state->contact_count (node_count) says whether a node touches no, one or several obstacles
 // in this step, and state->contact_normal (node_count x 4) holds the normal of the last and its
 // number; `fresh` forgets them first. Returns the number of nodes that were put back.
 size_t vsc_contact_resolve(const vsc_model *model, vsc_state *state, double dt, bool fresh);
@@ -32,7 +32,8 @@ void vsc_contact_account(const vsc_model *model, vsc_state *state);
 
 // To be called when a row of steps of dt has ended and velocities are those of its end: nodes that
 // touched an obstacle in the last step lose the velocity that leads into it, and friction takes its
-// part, because the reaction that does so would come only in the next step.
-void vsc_contact_settle(const vsc_model *model, vsc_state *state, double dt);
+// part, because the reaction that does so would come only in the next step. Those that it does not stop are marked as
+// leaving (state->contact_count). Returns how many nodes were stopped.
+size_t vsc_contact_settle(const vsc_model *model, vsc_state *state, double dt);
 
 #endif

@@ -16,15 +16,16 @@
 // within 2 %, twice as soon when it moved by more than 10 %.
 #define SHORTEST_TRUST 0.25
 #define LONGEST_TRUST 4.0
-enum { TRUSTED_STEPS = 64 };  // or as long as these take: an estimate costs as much as five
+enum { TRUSTED_STEPS = 128 };  // or as long as these take: an estimate costs as much as five
 // A stable step below this part of the first one belongs to a body that is torn or crushed.
 #define COLLAPSE 1e-3
-enum { FIRST_ITERATIONS = 40, WARM_ITERATIONS = 4, NODES_PER_PIECE = 256 };
+enum { FIRST_ITERATIONS = 40, WARM_ITERATIONS = 4, NODES_PER_PIECE = 256, MOST_TURNS = 20 };
 
 typedef struct motion {
   const vsc_model *model;
   vsc_state *state;
   double dt;
+  bool whole;  // whether the forces are added up already
 } motion;
 
 // Nodes go in pieces, first those before the ones that are still, then those behind them.
@@ -70,8 +71,9 @@ static inline void drift_node(const motion *m, size_t n, vsc_wide a)
 static inline vsc_wide kick_node(const motion *m, size_t n)
 {
   // a <- f / m;  v <- v + dt/2 a
-  const vsc_wide a =
-      ((const vsc_wide *)m->model->inverse_mass)[n] * ((const vsc_wide *)m->state->force)[n];
+  const double *force = m->state->force;
+  const vsc_wide f = m->whole ? ((const vsc_wide *)force)[n] : vsc_node_force(m->model, &m->state->scratch, force, n);
+  const vsc_wide a = ((const vsc_wide *)m->model->inverse_mass)[n] * f;
   ((vsc_wide *)m->state->v)[n] += 0.5 * m->dt * a;
   return a;
 }
@@ -106,12 +108,11 @@ static void kick_and_drift(void *context, size_t piece, int thread)
 static vsc_status restrain(const vsc_model *model, vsc_state *state, double dt, bool first,
                            vsc_error *error)
 {
-  enum { MOST_TURNS = 20 };
   if (model->obstacle_count > 0) vsc_contact_resolve(model, state, dt, true);
   if (model->kept.count == 0) return VSC_OK;
   memset(state->kept_pressure, 0, model->kept.count * sizeof *state->kept_pressure);
   for (int turn = 0; turn < MOST_TURNS; turn++) {
-    const vsc_status status = vsc_keep_volume(model, state, dt, first && turn == 0, error);
+    const vsc_status status = vsc_keep_volume(model, state, dt, first, error);
     if (status != VSC_OK) return status;
     if (model->obstacle_count > 0 && vsc_contact_resolve(model, state, dt, false) > 0) continue;
     for (size_t k = 0; first && k < model->kept.count; k++) state->kept_pressure[k] *= 2;
@@ -123,10 +124,23 @@ static vsc_status restrain(const vsc_model *model, vsc_state *state, double dt, 
                   state->time, MOST_TURNS);
 }
 
+// The same of velocities at the end of a row of steps. What is left after all turns the next step takes up.
+static vsc_status settle(const vsc_model *model, vsc_state *state, double dt, vsc_error *error)
+{
+  if (model->obstacle_count > 0) vsc_contact_settle(model, state, dt);
+  for (int turn = 0; model->kept.count > 0 && turn < MOST_TURNS; turn++) {
+    const vsc_status status = vsc_keep_volume_settle(model, state, dt, error);
+    if (status != VSC_OK || model->obstacle_count == 0) return status;
+    if (vsc_contact_settle(model, state, dt) == 0) break;
+  }
+  return VSC_OK;
+}
+
 vsc_status vsc_steps(const vsc_model *model, vsc_state *state, double dt, double count,
                      vsc_error *error)
 {
-  motion m = {model, state, dt};
+  // supports that move look at whole forces
+  motion m = {model, state, dt, model->moved_count > 0};
   const size_t pieces = piece_count(model);
   const double *velocity = model->terms.damping ? state->scratch.predicted : NULL;
   vsc_parallel_for(pieces, drift, &m);
@@ -138,12 +152,11 @@ vsc_status vsc_steps(const vsc_model *model, vsc_state *state, double dt, double
     if (status != VSC_OK) return status;
     if (model->obstacle_count > 0) vsc_contact_account(model, state);
     if (model->branch_count > 0) vsc_prony_step(model, state, dt);
-    vsc_force(model, state->x, velocity, state->time, &state->scratch, state->force);
+    (m.whole ? vsc_force : vsc_force_parts)(model, state->x, velocity, state->time, &state->scratch, state->force);
     if (model->moved_count > 0) vsc_moving_account(model, state, dt, k == count);
     vsc_parallel_for(pieces, k < count ? kick_and_drift : kick, &m);
   }
-  if (model->obstacle_count > 0) vsc_contact_settle(model, state, dt);
-  return model->kept.count > 0 ? vsc_keep_volume_settle(model, state, error) : VSC_OK;
+  return settle(model, state, dt, error);
 }
 
 // The time at which the most is active, for the estimate before the first step; that of the state where
@@ -185,7 +198,7 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
   state->limit.first = state->limit.least = stable;
   vsc_force(model, state->x, model->terms.damping ? state->v : NULL, state->time, &state->scratch,
             state->force);
-  motion m = {model, state, 0};
+  motion m = {.model = model, .state = state, .whole = true};
   for (size_t piece = 0; piece < piece_count(model); piece++) kick(&m, piece, 0);
   if (model->terms.damping) memcpy(state->past_a, state->a, 4 * model->node_count * sizeof *state->a);
   if (model->moved_count > 0) vsc_moving_start(model, state);

@@ -145,16 +145,21 @@ static void find_gradients(const vsc_model *model, keeper *k, const double *x)
   }
 }
 
+static bool is_stopped(const vsc_state *state, uint32_t node)
+{
+  return state->contact_count[node] == VSC_TOUCHES || state->contact_count[node] == VSC_TOUCHES_SEVERAL;
+}
+
 // What of a force on the node moves it: not held directions, nor the normal of its contact.
 static void free_part(const vsc_model *model, const vsc_state *state, uint32_t node,
                       const double force[3], double part[3])
 {
   const double *inverse = model->inverse_mass + 4 * (size_t)node;
   for (int i = 0; i < 3; i++) part[i] = inverse[i] > 0 ? force[i] : 0;
-  if (model->obstacle_count == 0 || state->contact_count[node] == 0) return;
+  if (model->obstacle_count == 0 || !is_stopped(state, node)) return;
   const double *normal = state->contact_normal + 4 * (size_t)node;
   const double along = vsc_dot(part, normal);
-  const bool blocked = state->contact_count[node] > 1;
+  const bool blocked = state->contact_count[node] == VSC_TOUCHES_SEVERAL;
   for (int i = 0; i < 3; i++) part[i] = blocked ? 0 : part[i] - along * normal[i];
 }
 
@@ -209,8 +214,8 @@ static bool solve(keeper *k)
   return true;
 }
 
-// What obstacles bear of the multipliers' forces: the parts that free_part takes away.
-static void load_obstacles(const vsc_model *model, vsc_state *state, const keeper *k, double dt)
+// What obstacles bear of the impulses sum_k size (right_k) g_k, mN ms: the parts that free_part takes away.
+static void load_obstacles(const vsc_model *model, vsc_state *state, const keeper *k, double size, double dt)
 {
   const double *amount = k->right->x;
   if (model->obstacle_count == 0) return;
@@ -218,11 +223,11 @@ static void load_obstacles(const vsc_model *model, vsc_state *state, const keepe
     for (size_t i = k->first[v]; i < k->first[v + 1]; i++) {
       const uint32_t node = k->node[i];
       double part[3], impulse[3];
-      if (state->contact_count[node] == 0) continue;
+      if (!is_stopped(state, node)) continue;
       free_part(model, state, node, k->gradient + 3 * i, part);
       for (int a = 0; a < 3; a++) {
         const bool held = model->inverse_mass[4 * (size_t)node + (size_t)a] == 0;
-        impulse[a] = held ? 0 : amount[v] / dt * (part[a] - k->gradient[3 * i + (size_t)a]);
+        impulse[a] = held ? 0 : size * amount[v] * (part[a] - k->gradient[3 * i + (size_t)a]);
       }
       vsc_contact_load(model, state, node, impulse, dt);
     }
@@ -272,7 +277,7 @@ static double find_defects(const vsc_model *model, const vsc_state *state, keepe
   return isfinite(most) ? most : HUGE_VAL;
 }
 
-vsc_status vsc_keep_volume(const vsc_model *model, vsc_state *state, double dt, bool fresh,
+vsc_status vsc_keep_volume(const vsc_model *model, vsc_state *state, double dt, bool first,
                            vsc_error *error)
 {
   vsc_status status = open_keeper(model, state, error);
@@ -282,7 +287,7 @@ vsc_status vsc_keep_volume(const vsc_model *model, vsc_state *state, double dt, 
     k->former[i] = state->x[i] - dt * state->v[i];
   find_gradients(model, k, k->former);
   // contact changes what can move
-  if (fresh || model->obstacle_count > 0) status = factorise(model, state, k, error);
+  if (first || model->obstacle_count > 0) status = factorise(model, state, k, error);
   memset(k->lambda, 0, model->kept.count * sizeof *k->lambda);
   double most = find_defects(model, state, k);
   for (int round = 0; status == VSC_OK && most > 0.1 * VSC_KEPT_TOLERANCE; round++) {
@@ -291,10 +296,10 @@ vsc_status vsc_keep_volume(const vsc_model *model, vsc_state *state, double dt, 
     memcpy(k->right->x, k->defect, model->kept.count * sizeof(double));
     if (status == VSC_OK && !solve(k)) status = vsc_fail_memory(error, "kept volumes");
     if (status != VSC_OK) break;
-    load_obstacles(model, state, k, dt);
+    load_obstacles(model, state, k, 1 / dt, dt);
     push(model, state, k, 1, state->x);
     push(model, state, k, 1 / dt, state->v);
-    if (model->terms.damping) push(model, state, k, 1 / dt, state->scratch.predicted);
+    if (model->terms.damping) push(model, state, k, (first ? 2 : 1.5) / dt, state->scratch.predicted);
     for (size_t v = 0; v < model->kept.count; v++) k->lambda[v] += ((double *)k->right->x)[v];
     const double before = most;
     most = find_defects(model, state, k);
@@ -311,7 +316,7 @@ vsc_status vsc_keep_volume(const vsc_model *model, vsc_state *state, double dt, 
   return status;
 }
 
-vsc_status vsc_keep_volume_settle(const vsc_model *model, vsc_state *state, vsc_error *error)
+vsc_status vsc_keep_volume_settle(const vsc_model *model, vsc_state *state, double dt, vsc_error *error)
 {
   keeper *k = state->keeper;
   find_gradients(model, k, state->x);
@@ -324,6 +329,7 @@ vsc_status vsc_keep_volume_settle(const vsc_model *model, vsc_state *state, vsc_
       change[v] += vsc_dot(k->gradient + 3 * i, state->v + 4 * (size_t)k->node[i]);
   }
   if (!solve(k)) return vsc_fail_memory(error, "kept volumes");
+  load_obstacles(model, state, k, -1, dt);
   push(model, state, k, -1, state->v);
   return VSC_OK;
 }
