@@ -96,7 +96,8 @@ VSC_INLINE void weigh_answer(double stiffness_factor, double damping_factor, con
 }
 
 // S + H - L S_0 and D - L D_0 of a Prony series (mech/prony.h), weighed as the answer is, but for what
-// of S_0 keeps a law of the full deformation free of stress at rest. Not inlined, as laws are not.
+// of S_0 keeps a law of the full deformation free of stress at rest (exact for J above VSC_VOLUME_J0).
+// Not inlined, as laws are not.
 static __attribute__((noinline)) void relax_answer(const vsc_patch_work *work, vsc_wide share, int q,
                                                    const vsc_wide3 g[3], const vsc_wide3 *former,
                                                    vsc_law_answer *answer)

@@ -11,7 +11,7 @@
 //
 //   h_i <- e^(-dt/tau_i) h_i + g_i w_i (S_0 - S_0 before),  w_i = (1 - e^(-dt/tau_i)) tau_i/dt,
 //
-// else it is off by dt^2; so the stress at a step's end is a function of the strain there,
+// else one that is off by dt^2; so the stress at a step's end is a function of the strain there,
 //
 //   S = S_0 + H - L S_0,  H = sum_i [e^(-dt/tau_i) h_i - g_i w_i S_0 before],  L = sum_i g_i (1 - w_i),
 //
