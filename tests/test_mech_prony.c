@@ -230,9 +230,9 @@ static void series_that_are_none(void **state)
       {{0.1, 10}, {0.5, 0}, VSC_LAW_SPRINGS, VSC_SOLVE_EXPLICIT, VSC_TETS_PLAIN, "prony[1].time"},
       {{0.1, 10}, {0.5, NAN}, VSC_LAW_SPRINGS, VSC_SOLVE_EXPLICIT, VSC_TETS_PLAIN, "prony[1].time"},
       {{0.1, 10}, {0.5, 20}, VSC_LAW_PAPER, VSC_SOLVE_EXPLICIT, VSC_TETS_PLAIN, "law: paper"},
-      {{0.1, 10}, {0.5, 20}, VSC_LAW_SPRINGS, VSC_SOLVE_IMPLICIT, VSC_TETS_PLAIN, "solve: explicit"},
-      {{0.1, 10}, {0.5, 20}, VSC_LAW_SPRINGS, VSC_SOLVE_EQUILIBRIUM, VSC_TETS_PLAIN, "solve: explicit"},
       {{0.1, 10}, {0.5, 20}, VSC_LAW_SPRINGS, VSC_SOLVE_EXPLICIT, VSC_TETS_SMOOTHED, "tets: plain"},
+      {{0.1, 10}, {0.5, 20}, VSC_LAW_SPRINGS, VSC_SOLVE_IMPLICIT, VSC_TETS_SMOOTHED, "tets: plain"},
+      {{0.1, 10}, {0.5, 20}, VSC_LAW_SPRINGS, VSC_SOLVE_EQUILIBRIUM, VSC_TETS_SMOOTHED, "tets: plain"},
   };
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     vsc_prony_def prony[2] = {cases[k].first, cases[k].second};

@@ -5,6 +5,7 @@
 #include "mech/tangent.h"
 
 #include "kinds_body.h"
+#include "mech/prony.h"
 #include "tissue_laws.h"
 
 #define TIME 60.0  // ms: in the middle of the ramps
@@ -145,6 +146,64 @@ static void tangents_are_derivatives_when_active(void **state)
   }
 }
 
+// Branches that have come over two steps, and make a third, or one in which all relaxes.
+static void check_relaxing(random_body *body)
+{
+  static const double steps[] = {2, 3};  // ms
+  for (int k = 0; k < 2; k++) {
+    double *x = deformed(body->mesh, 0.1, 0.05, 71 + (uint64_t)k);
+    to_model(body->model, x, body->state->x);
+    vsc_prony_step(body->model, body->state, steps[k]);
+    vsc_free(x);
+  }
+  body->state->scratch.prony_step = 5;
+  check_by_positions(body, 2e-9);
+  body->state->scratch.prony_step = INFINITY;
+  check_by_positions(body, 2e-9);
+}
+
+static void tangents_are_derivatives_where_stress_relaxes(void **state)
+{
+  (void)state;
+  vsc_prony_def prony[2] = {{0.4, 4}, {0.3, 30}};
+  static vsc_axis_def axes[2];
+  static vsc_pair_def pairs[2];
+  for (int mesh = ALL_HEXES; mesh <= ALL_TETS10; mesh++)
+    for (int law = 0; law < 2; law++) {
+      random_body body;
+      vsc_material_def material = springs_material(axes, pairs);
+      if (law == 1) material.axis_count = material.pair_count = 0, material.law = VSC_LAW_NEO_HOOKEAN;
+      material.shear = 8;
+      material.prony = prony;
+      material.prony_count = 2;
+      kinds_open(&body, mesh_of((kinds_mesh)mesh, 2, 31), &material, VSC_VOLUME_NODAL, 32);
+      check_relaxing(&body);
+      body_close(&body);
+    }
+}
+
+// Neither activity nor inclusions relax.
+static void tangents_of_muscle_that_relaxes_are_derivatives(void **state)
+{
+  (void)state;
+  vsc_prony_def prony[2] = {{0.4, 4}, {0.3, 30}};
+  static const vsc_active_kind kinds[2] = {VSC_ACTIVE_TENSION, VSC_ACTIVE_SPRING};
+  for (int k = 0; k < 2; k++) {
+    random_body body;
+    vsc_mesh *mesh = random_block(3, 41);
+    vsc_inclusion_def inclusion = {.material = "scar", .fraction_array = "strength"};
+    body_define(&body, mesh, random_axes(mesh->element_count, 42), kinds[k], VSC_VOLUME_NODAL);
+    body.definition.pressure_count = 0;
+    body.materials[0].prony = prony;
+    body.materials[0].prony_count = 2;
+    body.materials[0].inclusions = &inclusion;
+    body.materials[0].inclusion_count = 1;
+    body_build(&body);
+    check_relaxing(&body);
+    body_close(&body);
+  }
+}
+
 // A law that is not free of stress at rest by itself, with viscosity, on the edges of smoothed tets.
 static void tangents_of_smoothed_tissue_are_derivatives(void **state)
 {
@@ -264,6 +323,8 @@ int main(void)
       cmocka_unit_test(tangents_are_derivatives_for_every_kind),
       cmocka_unit_test(tangents_are_derivatives_for_every_law),
       cmocka_unit_test(tangents_are_derivatives_when_active),
+      cmocka_unit_test(tangents_are_derivatives_where_stress_relaxes),
+      cmocka_unit_test(tangents_of_muscle_that_relaxes_are_derivatives),
       cmocka_unit_test(tangents_of_smoothed_tissue_are_derivatives),
       cmocka_unit_test(tangents_have_the_loads_in_them),
       cmocka_unit_test(tangents_have_the_same_bits_on_any_number_of_threads),

@@ -208,7 +208,8 @@ static const vsc_row vsc_material_group_rows[] = {
      .commented = true, .text = "100 Pa s", .meaning = "Kelvin-Voigt, of all strain; default 0 Pa s"},
     {"prony", PARTS(vsc_material_def, prony, prony_count, vsc_prony_group), .allowed = OF_STRAIN,
      .commented = true,
-     .meaning = "parts of the law's passive stress that relax; the law's constants are instantaneous"},
+     .meaning = "parts of the law's passive stress that relax; the law's constants are instantaneous; in "
+                "equilibria all has relaxed"},
     {"volume_modulus", QUANTITY(vsc_material_def, volume_modulus, VSC_PRESSURE),
      .allowed = OF_STRAIN, .needed = OF_STRAIN, .text = "1 MPa",
      .meaning = "against a change of volume"},

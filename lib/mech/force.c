@@ -203,7 +203,7 @@ static void patch_force(void *context, size_t p, int thread)
   vsc_patch_kernel *kernel = vsc_force_kernel(&choice);
   if (kernel != NULL) kernel(&work);
   if (e->model->branch_count > 0)
-    vsc_prony_force(e->model, patch, e->scratch->prony, e->x, local.f);
+    vsc_prony_force(e->model, patch, e->scratch->prony, e->scratch->prony_step, e->x, local.f);
   vsc_put_forces(patch, local.f, e->force, e->scratch->partial);
 }
 

@@ -30,6 +30,8 @@ typedef struct vsc_patch_work {
   bool shares_volume;  // whether the pressures of nodes count
   double stiffness_factor, damping_factor;  // of -df/dx and of -df/dw, what goes into tangents
   const double *before;  // positions of the iterate before, which foretells stresses; or NULL
+  const vsc_wide (*past)[6];  // tangents of materials with a Prony series: H of each frame of the pack, kPa
+  double loss;                // likewise: L of S + H - L S_0 (mech/prony.h); `past` is NULL without
   double *f;       // forces, mN: added to
   double *volume;  // quarter volumes, mm^3: added to, by the volume pass
   double *gradient;  // F of each tet, [tet][column][4]: written by the gradient pass

@@ -95,6 +95,29 @@ VSC_INLINE void weigh_answer(double stiffness_factor, double damping_factor, con
   }
 }
 
+// S + H - L S_0 and D - L D_0 of a Prony series (mech/prony.h), weighed as the answer is, but for what
+// of S_0 keeps a law of the full deformation free of stress at rest (exact for J above VSC_VOLUME_J0).
+// Not inlined, as laws are not.
+static __attribute__((noinline)) void relax_answer(const vsc_patch_work *work, vsc_wide share, int q,
+                                                   const vsc_wide3 g[3], const vsc_wide3 *former,
+                                                   vsc_law_answer *answer)
+{
+  const vsc_law_input own = {.material = work->material,
+                             .axes = work->axes,
+                             .pairs = work->pairs,
+                             .moduli = vsc_moduli_or(work->material, NULL)};
+  const vsc_wide loss = work->stiffness_factor * work->loss * share;
+  vsc_law_answer passive;
+  vsc_wide e[6];
+  vsc_strain_of(g, e);
+  law_tangent(&own, e, &passive);
+  if (former != NULL) foretell_stress(&own, former, g, passive.S);
+  for (int k = 0; k < 6; k++) {
+    answer->S[k] += work->stiffness_factor * work->past[q][k] - loss * passive.S[k];
+    for (int l = 0; l < 6; l++) answer->D[k][l] -= loss * passive.D[k][l];
+  }
+}
+
 // K += c_i (x) curvature c_j
 VSC_INLINE void add_outer(vsc_wide3 left, vsc_wide3 right, vsc_wide K[9])
 {
@@ -225,7 +248,11 @@ VSC_INLINE void tangent_kernel(const vsc_patch_work *work, size_t k, int corners
     else
       weigh_answer(work->stiffness_factor, work->damping_factor, &in, g[q], before,
                    work->w != NULL ? rate : NULL, &answer);
-    const vsc_wide rest = vsc_splat(work->smoothed != NULL ? 0 : work->material->rest_shear);
+    vsc_wide rest = vsc_splat(work->smoothed != NULL ? 0 : work->material->rest_shear);
+    if (work->past != NULL) {
+      relax_answer(work, in.moduli.share, q, g[q], before, &answer);
+      rest *= 1 - work->loss;
+    }
     const vsc_wide p = shared.pressure + own_pressure(own, rest, frame.J, before, g[q]);
     const vsc_wide curvature =
         vsc_volume_curvature(own, frame.J) + vsc_rest_curvature(rest, frame.J);

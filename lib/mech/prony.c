@@ -37,6 +37,19 @@ static size_t frame_of(const vsc_model *model, const vsc_patch *patch, size_t k,
   return patch->first_frame + (k - patch->first_pack) * points + (size_t)q;
 }
 
+static vsc_law_input law_of(const vsc_model *model, const vsc_material *material)
+{
+  return (vsc_law_input){.material = material,
+                         .axes = model->axes + material->first_axis,
+                         .pairs = model->pairs + material->first_pair,
+                         .moduli = vsc_moduli_or(material, NULL)};
+}
+
+static vsc_wide share_of(const vsc_model *model, const vsc_patch *patch, size_t k)
+{
+  return patch->mixed ? vsc_pack_mixture(model, patch, k)->share : vsc_splat(1);
+}
+
 // S_0 of the own material's share, with J p C^-1 of p = -m/J: (C^-1)_ab = cof_a . cof_b / J^2.
 static void passive_stress(const vsc_law_input *in, vsc_wide share, const vsc_wide3 g[3],
                            const vsc_wide e[6], vsc_wide S[6])
@@ -54,20 +67,31 @@ static void passive_stress(const vsc_law_input *in, vsc_wide share, const vsc_wi
   }
 }
 
-// What a step of dt does to the branches of a material.
+// What a step of dt does to the branches of a material: e^(-dt/tau_i), g_i w_i and L.
 typedef struct branch_step {
-  double decay[VSC_MOST_BRANCHES], gain[VSC_MOST_BRANCHES];
+  double decay[VSC_MOST_BRANCHES], gain[VSC_MOST_BRANCHES], loss;
 } branch_step;
 
 static branch_step step_of(const vsc_material *material, double dt)
 {
   branch_step step = {0};
   for (size_t i = 0; i < material->branch_count; i++) {
-    const double x = dt / material->branches[i].time;
+    const double x = dt / material->branches[i].time, g = material->branches[i].modulus;
     step.decay[i] = exp(-x);
-    step.gain[i] = -material->branches[i].modulus * expm1(-x) / x;
+    step.gain[i] = x > 0 ? -g * expm1(-x) / x : g;
+    step.loss += g - step.gain[i];
   }
   return step;
+}
+
+// H = sum_i (e^(-dt/tau_i) h_i - g_i w_i S_0 before) of one frame.
+static void past_of(const vsc_material *material, const branch_step *step, const vsc_wide *memory, vsc_wide H[6])
+{
+  for (int k = 0; k < 6; k++) {
+    H[k] = vsc_splat(0);
+    for (size_t i = 0; i < material->branch_count; i++)
+      H[k] += step->decay[i] * memory[BRANCHES + 6 * i + (size_t)k] - step->gain[i] * memory[STRESS + k];
+  }
 }
 
 // Carries one frame on to strain e and stress S_0; returns (S - S_0) : dE of the step, by the
@@ -108,14 +132,10 @@ static void carry_patch(void *context, size_t p, int thread)
   const vsc_material *material = &model->materials[patch->material];
   if (material->branch_count == 0) return;
   const branch_step step = step_of(material, c->dt);
-  const vsc_law_input in = {.material = material,
-                            .axes = model->axes + material->first_axis,
-                            .pairs = model->pairs + material->first_pair,
-                            .moduli = vsc_moduli_or(material, NULL)};
+  const vsc_law_input in = law_of(model, material);
   double sum = 0;
   for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++) {
-    const vsc_wide share =
-        patch->mixed ? vsc_pack_mixture(model, patch, k)->share : vsc_splat(1);
+    const vsc_wide share = share_of(model, patch, k);
     for (int q = 0; q < vsc_family_frames(model, patch->family); q++) {
       vsc_wide3 g[3];
       vsc_wide e[6], S[6];
@@ -140,46 +160,63 @@ void vsc_prony_step(const vsc_model *model, vsc_state *state, double dt)
 void vsc_prony_stress(const vsc_model *model, const vsc_material *material, const double *prony,
                       size_t frame, vsc_wide S[6])
 {
-  const vsc_wide *memory = memory_of(model, prony, frame);
-  for (int k = 0; k < 6; k++) {
-    S[k] = vsc_splat(0);
-    for (size_t i = 0; i < material->branch_count; i++)
-      S[k] += memory[BRANCHES + 6 * i + (size_t)k] -
-              material->branches[i].modulus * memory[STRESS + k];
-  }
+  const branch_step step = step_of(material, 0);
+  past_of(material, &step, memory_of(model, prony, frame), S);
 }
 
-void vsc_prony_force(const vsc_model *model, const vsc_patch *patch, const double *prony,
+double vsc_prony_past(const vsc_model *model, const vsc_patch *patch, size_t k, const double *prony,
+                      double dt, vsc_wide (*H)[6])
+{
+  const vsc_material *material = &model->materials[patch->material];
+  const branch_step step = step_of(material, dt);
+  for (int q = 0; q < vsc_family_frames(model, patch->family); q++)
+    past_of(material, &step, memory_of(model, prony, frame_of(model, patch, k, q)), H[q]);
+  return step.loss;
+}
+
+// f_i = -sum_k D_ki V sum_a P_a T_ak of stress S on frame q of four cells with axes g.
+static void add_force(const vsc_model *model, const vsc_patch *patch, size_t k, int q, const vsc_wide3 g[3],
+                      const vsc_wide S[6], double *f)
+{
+  const uint16_t(*node)[VSC_WIDTH] = vsc_pack_nodes(model, patch, k);
+  const vsc_frame *frame = vsc_pack_frames(model, patch, k) + q;
+  vsc_wide3 P[3], flux[3];
+  vsc_stress_on_axes(S, g, P);
+  for (int i = 0; i < 3; i++)
+    flux[i] = vsc_wide_scale(-frame->V, vsc_wide_combine(frame->T[0][i], P[0], frame->T[1][i],
+                                                         P[1], frame->T[2][i], P[2]));
+  for (int c = 0; c < vsc_family_corners(patch->family); c++)
+    for (int i = 0; i < 3; i++) {
+      const double D = model->rules[patch->family].D[q][i][c];
+      for (int l = 0; l < VSC_WIDTH; l++) {
+        double *to = f + 4 * (size_t)node[c][l];
+        to[0] += D * flux[i].x[l];
+        to[1] += D * flux[i].y[l];
+        to[2] += D * flux[i].z[l];
+      }
+    }
+}
+
+void vsc_prony_force(const vsc_model *model, const vsc_patch *patch, const double *prony, double dt,
                      const double *x, double *f)
 {
   const vsc_material *material = &model->materials[patch->material];
   if (!vsc_patch_is_solid(patch) || material->branch_count == 0) return;
-  const int corners = vsc_family_corners(patch->family);
-  for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++) {
-    const uint16_t(*node)[VSC_WIDTH] = vsc_pack_nodes(model, patch, k);
+  const branch_step step = step_of(material, dt);
+  const vsc_law_input in = law_of(model, material);
+  for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++)
     for (int q = 0; q < vsc_family_frames(model, patch->family); q++) {
-      const vsc_frame *frame = vsc_pack_frames(model, patch, k) + q;
-      vsc_wide3 g[3], P[3], flux[3];
-      vsc_wide S[6];
+      vsc_wide3 g[3];
+      vsc_wide e[6], S[6], now[6];
       vsc_pack_axes(model, patch, k, q, x, g);
-      vsc_prony_stress(model, material, prony, frame_of(model, patch, k, q), S);
-      vsc_stress_on_axes(S, g, P);
-      // f_i = -sum_k D_ki V sum_a P_a T_ak
-      for (int i = 0; i < 3; i++)
-        flux[i] = vsc_wide_scale(-frame->V, vsc_wide_combine(frame->T[0][i], P[0], frame->T[1][i],
-                                                             P[1], frame->T[2][i], P[2]));
-      for (int c = 0; c < corners; c++)
-        for (int i = 0; i < 3; i++) {
-          const double D = model->rules[patch->family].D[q][i][c];
-          for (int l = 0; l < VSC_WIDTH; l++) {
-            double *to = f + 4 * (size_t)node[c][l];
-            to[0] += D * flux[i].x[l];
-            to[1] += D * flux[i].y[l];
-            to[2] += D * flux[i].z[l];
-          }
-        }
+      past_of(material, &step, memory_of(model, prony, frame_of(model, patch, k, q)), S);
+      if (step.loss > 0) {
+        vsc_strain_of(g, e);
+        passive_stress(&in, share_of(model, patch, k), g, e, now);
+        for (int i = 0; i < 6; i++) S[i] -= step.loss * now[i];
+      }
+      add_force(model, patch, k, q, g, S, f);
     }
-  }
 }
 
 double vsc_prony_work(const vsc_model *model, const vsc_state *state)

@@ -85,6 +85,7 @@ vsc_status vsc_state_create(const vsc_model *model, vsc_state **state, vsc_error
     return vsc_fail_memory(error, "the state of the simulation");
   }
   made->scratch.prony = made->prony;
+  made->scratch.prony_step = model->solve.kind == VSC_SOLVE_EQUILIBRIUM ? INFINITY : 0;
   memcpy(made->x, model->rest, 4 * model->node_count * sizeof *made->x);
   if (model->velocity != NULL)
     memcpy(made->v, model->velocity, 4 * model->node_count * sizeof *made->v);

@@ -39,6 +39,8 @@ typedef struct vsc_scratch {
   double *gradient, *rate, *edge_stress;
   double *predicted;       // node_count x 4: velocity at the end of the step, when there is damping
   const double *prony;      // the state's: branches of Prony series
+  double prony_step;        // length of the step in which forces and tangents carry branches on to where they
+                            // are taken, ms: 0 but while an implicit step is solved; equilibria: infinite
   double *node_multiplier;  // node_count: added to the pressure of each node's group, kPa; NULL but with
                             // solve.incompressible
   double *pack_multiplier;  // pack_count x 4: the same of each element that shares its volume among its

@@ -9,6 +9,7 @@
 #include "mech/kernel.h"
 #include "mech/loads.h"
 #include "mech/mass_matrix.h"
+#include "mech/prony.h"
 #include "mech/smoothed.h"
 #include "model/law_volume.h"
 
@@ -281,8 +282,13 @@ static void assemble_patch(void *context, size_t piece, int thread)
   work.stiffness_factor = a->stiffness_factor;
   work.damping_factor = a->damping_factor;
   vsc_tangent_kernel *kernel = vsc_family_tangent(patch->family);
-  vsc_wide K[9 * MOST_PAIRS];
+  const bool relaxes = vsc_patch_is_solid(patch) && work.material->branch_count > 0;
+  vsc_wide K[9 * MOST_PAIRS], past[VSC_MOST_POINTS][6];
+  if (relaxes) work.past = (const vsc_wide(*)[6])past;
   for (uint32_t k = 0; k < patch->pack_count; k++) {
+    if (relaxes)
+      work.loss = vsc_prony_past(a->model, patch, patch->first_pack + k, a->scratch->prony,
+                                 a->scratch->prony_step, past);
     kernel(&work, k, K);
     scatter_pack(a, p, patch->first_pack + k, vsc_family_corners(patch->family), K);
   }

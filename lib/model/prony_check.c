@@ -44,9 +44,6 @@ vsc_status vsc_prony_check(const vsc_definition *definition, vsc_error *error)
     if (status != VSC_OK) return status;
     if (!vsc_law_is_of_strain(material->law))
       return refuse(m, "law: paper and classical have none; leave it out", error);
-    if (definition->solve.kind != VSC_SOLVE_EXPLICIT)
-      return refuse(m, "can only be stepped explicitly yet; use solve: explicit, or leave it out",
-                    error);
     if (definition->tets == VSC_TETS_SMOOTHED)
       return refuse(m, "smoothed tets have none; use tets: plain, or leave it out", error);
   }

@@ -7,7 +7,7 @@
 
 // Refuses (VSC_INPUT, with key, value and remedy) series of materials that are no series, or that what
 // else the definition asks for cannot step: parts or times not above zero, parts of sum 1 or more, laws
-// that are no functions of strain, smoothed tets, all but explicit stepping.
+// that are no functions of strain, smoothed tets.
 vsc_status vsc_prony_check(const vsc_definition *definition, vsc_error *error);
 
 #endif

@@ -7,6 +7,7 @@
 
 #include "base/mem.h"
 #include "mech/force.h"
+#include "mech/prony.h"
 #include "solve/incompressible.h"
 #include "solve/moving.h"
 
@@ -126,6 +127,7 @@ vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double u
     if (status == VSC_OK) {
       memcpy(state->former_x, state->x, 4 * model->node_count * sizeof *x);
       memcpy(state->x, x, 4 * model->node_count * sizeof *x);
+      if (model->branch_count > 0) vsc_prony_step(model, state, INFINITY);
       vsc_kept_give(newton->kept, state);
       state->former_step = (next - done) * way;
       state->time = next == 1 ? until : s.time;

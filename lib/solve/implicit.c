@@ -6,6 +6,7 @@
 
 #include "base/mem.h"
 #include "mech/force.h"
+#include "mech/prony.h"
 #include "solve/moving.h"
 
 #define FIRST_STEP 1.0      // ms, unless the way is shorter
@@ -101,6 +102,7 @@ vsc_status vsc_implicit_start(const vsc_model *model, vsc_state *state, vsc_erro
   state->release_solver = release;
   state->limit.step = model->step > 0 ? model->step : fmin(FIRST_STEP, model->end_time);
   vsc_supports_place(model, state->time, 1, state->x);
+  if (model->branch_count > 0) vsc_prony_step(model, state, 0);
   status = first_acceleration(model, state, s->newton, error);
   if (status == VSC_OK && model->moved_count > 0) {
     vsc_tangent_masses_times(model, s->newton->tangent, -1, state->a, state->force);
@@ -246,6 +248,7 @@ static vsc_status accept(const step *p, double dt, vsc_error *error)
     state->x[i] = p->s->next[i];
   }
   if (remembers) state->former_step = dt;
+  if (p->model->branch_count > 0) vsc_prony_step(p->model, state, dt);
   vsc_touch_kick(p->s->newton->touch, state->x, p->scheme.kick[1], state->v);
   vsc_touch_stop(p->s->newton->touch, state, dt);
   vsc_kept_give(p->s->newton->kept, state);
@@ -279,8 +282,10 @@ static vsc_status do_step(const vsc_model *model, vsc_state *state, double dt, d
   vsc_kept_take(s->newton->kept, state);
   int iterations;
   *done = false;
+  state->scratch.prony_step = (1 - p.scheme.force_past) * dt;
   const vsc_status status =
       vsc_newton_solve(s->newton, &balance, p.time, 1, s->next, &iterations, error);
+  state->scratch.prony_step = 0;
   if (status != VSC_OK) {
     s->counts.failed += status == VSC_NUMERICAL;
     *allowed = SHORTER * dt;

@@ -12,6 +12,9 @@
 // gamma = 1/2 - m + f and beta = (1 - m + f)^2/4: second order, and what is too fast for the step
 // decays by rho in each. Trapezoid: m = f = 0, gamma = 1/2, beta = 1/4: keeps energy best, damps
 // nothing. BDF2: both derivatives by the second backward difference, for steps of any ratio. Obstacles: solve/touch.h.
+// Branches of Prony series go from the step's start over (1 - f) dt to the strain where forces balance, within f
+// (mech/prony.h), and over dt to x_1 once the step is accepted: both are off by dt^2 at most, so the order stays two, and
+// what has relaxed under a strain that is held is exact in steps of any length.
 #ifndef VSC_SOLVE_IMPLICIT_H
 #define VSC_SOLVE_IMPLICIT_H
 

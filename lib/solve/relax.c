@@ -6,6 +6,7 @@
 
 #include "base/mem.h"
 #include "mech/force.h"
+#include "mech/prony.h"
 #include "mech/step_limit.h"
 #include "solve/moving.h"
 
@@ -112,6 +113,7 @@ vsc_status vsc_relax_to(const vsc_model *model, vsc_state *state, double until, 
     memset(state->v, 0, 4 * model->node_count * sizeof *state->v);
     state->time = until;
     state->steps++;
+    if (model->branch_count > 0) vsc_prony_step(model, state, INFINITY);
     vsc_moving_reckon(model, state, state->force, 1, loads.way);
     return VSC_OK;
   }
