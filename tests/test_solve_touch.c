@@ -52,7 +52,7 @@ static vsc_touch *scatter(small_body *body, vsc_obstacle_def things[2], double s
     for (int i = 0; i < 3; i++) x[i] += way * normal[i];
     body->state->touch[o * nodes + n] = fmax(10 + 30 * any_number(&seed), 0);
   }
-  vsc_touch_begin(touch, body->state, 0, 1, 0);
+  vsc_touch_begin(touch, body->state, 0, false, 1, 0);
   return touch;
 }
 

@@ -119,12 +119,42 @@ static void a_ball_that_comes_down_is_felt_as_in_explicit_steps(void **state)
   assert_true(palpate(VSC_SOLVE_IMPLICIT, VSC_SCHEME_GENERALIZED_ALPHA, 0, force, &off) < 200);
 }
 
+// An undamped block that a ball is pressed into is shaken: nodes slide round the ball, which makes no energy of that:
+// what contact has lost never falls, but for the 2e-6 to which depths are found. Pushed along the normal at the end of each
+// step it falls by up to 2e-3 in one of these steps, by 9e-3 in all.
+static void a_ball_makes_no_energy_of_what_slides_round_it(void **state)
+{
+  (void)state;
+  for (int scheme = 0; scheme < 2; scheme++) {
+    small_body body;
+    vsc_obstacle_def thing = ball(0.3, 0.2, 7, 3);
+    move(&thing, -0.8, 20);
+    open_block(&body, 4, 0.2, VSC_SOLVE_IMPLICIT, &thing, 1);
+    body_hold(&body, "z0", 1, 1, 1);
+    body.definition.solve.scheme = scheme == 0 ? VSC_SCHEME_GENERALIZED_ALPHA : VSC_SCHEME_TRAPEZOID;
+    body.definition.step = 0.5;
+    body_build(&body);
+    advance(&body, 20);
+    body_shake(&body, 0.2);
+    advance(&body, 21);
+    double before = body.state->contact[0].lost, most = 0;
+    for (double time = 21.5; time <= 60; time += 0.5) {
+      advance(&body, time);
+      most = fmax(most, before - body.state->contact[0].lost);
+      before = body.state->contact[0].lost;
+    }
+    assert_true(most < 1e-5);
+    body_close(&body);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(all_methods_end_in_the_same),
       cmocka_unit_test(a_dropped_block_gains_nothing_and_comes_to_rest),
       cmocka_unit_test(a_ball_that_comes_down_is_felt_as_in_explicit_steps),
+      cmocka_unit_test(a_ball_makes_no_energy_of_what_slides_round_it),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

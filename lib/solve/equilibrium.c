@@ -112,7 +112,7 @@ vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double u
   while (done < 1) {
     const double next = done + increment > 1 - SHORTEST ? 1 : done + increment;
     statics s = {model, state, start + next * way};
-    vsc_touch_begin(newton->touch, state, s.time, 1, 0);
+    vsc_touch_begin(newton->touch, state, s.time, false, 1, 0);
     state->scratch.load = load0 + next * (1 - load0);
     int iterations = 0;
     vsc_kept_take(newton->kept, state);

@@ -245,11 +245,11 @@ static vsc_status accept(const step *p, double dt, vsc_error *error)
     }
     state->v[i] = rests ? 0 : p->scheme.V * p->s->next[i] + p->s->h_v[i];
     state->a[i] = rests ? 0 : p->s->middle_a[i];
-    state->x[i] = p->s->next[i];
   }
+  vsc_touch_kick(p->s->newton->touch, p->s->next, p->scheme.kick[1], state->v);
+  memcpy(state->x, p->s->next, 4 * p->model->node_count * sizeof *state->x);
   if (remembers) state->former_step = dt;
   if (p->model->branch_count > 0) vsc_prony_step(p->model, state, dt);
-  vsc_touch_kick(p->s->newton->touch, state->x, p->scheme.kick[1], state->v);
   vsc_touch_stop(p->s->newton->touch, state, dt);
   vsc_kept_give(p->s->newton->kept, state);
   // Newmark's velocities would swing about what keeps volumes; backward differences do not
@@ -275,7 +275,7 @@ static vsc_status do_step(const vsc_model *model, vsc_state *state, double dt, d
   step p = {model, state, s, prepare(model, state, s, dt), 0};
   p.time = state->time + (1 - p.scheme.force_past) * dt;
   const vsc_balance balance = {&p, residual, assemble};
-  vsc_touch_begin(s->newton->touch, state, state->time + dt, 1 - p.scheme.force_past,
+  vsc_touch_begin(s->newton->touch, state, state->time + dt, true, 1 - p.scheme.force_past,
                   (1 - p.scheme.mass_past) * p.scheme.A);
   vsc_touch_part(s->newton->touch, state, state->a, s->stopped);
   predict(model, state, dt, s);

@@ -26,9 +26,27 @@ typedef struct contact {
   double point[3];   // where the obstacle is, mm
   double gap;        // mm
   double normal[3];
+  double push[3];    // d, along which the obstacle pushes
+  double bend;       // of d: dd/dx is this times 1 - d d^T, 1/mm
   double stiffness;  // k, mN/mm
   double free;       // square of the normal's part in directions that are not held
 } contact;
+
+// d and how it bends: n, or in steps round a sphere of radius r, with the way y from its centre to the node,
+// d = (y + y_0)/(|y| + |y_0|).
+static void find_push(const vsc_touch *touch, const vsc_obstacle *obstacle, const double *x, contact *c)
+{
+  memcpy(c->push, c->normal, sizeof c->push);
+  c->bend = 0;
+  if (obstacle->kind == VSC_OBSTACLE_PLANE) return;
+  c->bend = 1 / (obstacle->radius + c->gap);
+  if (touch->start == NULL) return;
+  double point[3], normal[3];
+  vsc_obstacle_place(obstacle, touch->former, point);
+  const double *start = touch->start + 4 * (size_t)c->node;
+  c->bend = 1 / (2 * obstacle->radius + c->gap + vsc_obstacle_gap(obstacle, point, start, normal));
+  for (int i = 0; i < 3; i++) c->push[i] = c->bend * (x[i] - c->point[i] + start[i] - point[i]);
+}
 
 typedef void visitor(void *context, const contact *c);
 
@@ -48,6 +66,7 @@ static void visit_all(const vsc_touch *touch, const double *x, double time, visi
       for (size_t i = 0; i < 3; i++)
         if (model->inverse_mass[4 * (size_t)c.node + i] != 0) c.free += c.normal[i] * c.normal[i];
       if (c.free < LEAST_FREE * LEAST_FREE) continue;
+      find_push(touch, obstacle, x + 4 * (size_t)c.node, &c);
       c.stiffness = PUSH * touch->raise / c.free *
                     (touch->factor[0] * touch->stiffness[c.node] + touch->factor[1] * model->mass[c.node]);
       visit(context, &c);
@@ -82,7 +101,7 @@ void vsc_touch_free(vsc_touch *touch)
   vsc_free(touch);
 }
 
-void vsc_touch_begin(vsc_touch *touch, const vsc_state *state, double time, double stiffness_factor,
+void vsc_touch_begin(vsc_touch *touch, const vsc_state *state, double time, bool step, double stiffness_factor,
                      double mass_factor)
 {
   if (touch == NULL) return;
@@ -93,6 +112,8 @@ void vsc_touch_begin(vsc_touch *touch, const vsc_state *state, double time, doub
   touch->raise = 1;
   touch->off = INFINITY;
   touch->from = state->x;
+  touch->start = step ? state->x : NULL;
+  touch->former = state->time;
 }
 
 // ---- one balance
@@ -121,7 +142,7 @@ static void push(void *context, const contact *c)
   const double l = p->touch->multiplier[c->pair];
   const double t = l - c->stiffness * foretold_gap(p, c) > 0 ? l - c->stiffness * c->gap : 0;
   p->touch->force[c->pair] = t;
-  for (size_t i = 0; i < 3; i++) p->r[4 * (size_t)c->node + i] += t * c->normal[i];
+  for (size_t i = 0; i < 3; i++) p->r[4 * (size_t)c->node + i] += t * c->push[i];
 }
 
 void vsc_touch_push(vsc_touch *touch, const double *x, const double *before, double *r)
@@ -139,15 +160,13 @@ typedef struct stiffening {
 static void stiffen(void *context, const contact *c)
 {
   const stiffening *s = context;
-  const vsc_obstacle *obstacle = &s->touch->model->obstacles[c->obstacle];
-  const double l = s->touch->multiplier[c->pair];
+  const double l = s->touch->multiplier[c->pair], bend = c->bend * l;
   double block[9];
   if (s->touch->force[c->pair] == 0 && l < c->stiffness * (c->gap - TOUCHING * s->touch->size)) return;
-  const double bend = obstacle->kind == VSC_OBSTACLE_SPHERE ? l / (obstacle->radius + c->gap) : 0;
-  // k n n^T - l/(r + g) (1 - n n^T)
+  // k d d^T - l bend (1 - d d^T)
   for (int r = 0; r < 3; r++)
     for (int q = 0; q < 3; q++)
-      block[3 * r + q] = (c->stiffness + bend) * c->normal[r] * c->normal[q] - (r == q ? bend : 0);
+      block[3 * r + q] = (c->stiffness + bend) * c->push[r] * c->push[q] - (r == q ? bend : 0);
   vsc_block_matrix_add(&s->tangent->matrix, c->node, c->node, 1, block);
 }
 
@@ -349,7 +368,7 @@ static void kick(void *context, const contact *c)
   const stepping *s = context;
   const size_t at = 4 * (size_t)c->node;
   const double R = s->factor * s->touch->force[c->pair];
-  for (size_t i = 0; i < 3; i++) s->vector[at + i] += R * s->touch->model->inverse_mass[at + i] * c->normal[i];
+  for (size_t i = 0; i < 3; i++) s->vector[at + i] += R * s->touch->model->inverse_mass[at + i] * c->push[i];
 }
 
 void vsc_touch_kick(const vsc_touch *touch, const double *x, double factor, double *vector)
@@ -377,7 +396,7 @@ static void add_push(void *context, const contact *c)
 {
   const stepping *s = context;
   for (size_t i = 0; i < 3; i++)
-    s->vector[4 * (size_t)c->node + i] += s->factor * s->touch->force[c->pair] * c->normal[i];
+    s->vector[4 * (size_t)c->node + i] += s->factor * s->touch->force[c->pair] * c->push[i];
 }
 
 void vsc_touch_add(const vsc_touch *touch, const double *x, double push, double *force)
@@ -394,7 +413,7 @@ static void reckon(void *context, const contact *c)
   double moved[3];
   vsc_subtract(s->x + 4 * (size_t)c->node, s->state->x + 4 * (size_t)c->node, moved);
   for (int i = 0; i < 3; i++) {
-    const double F = s->factor * s->touch->force[c->pair] * c->normal[i];
+    const double F = s->factor * s->touch->force[c->pair] * c->push[i];
     sums->impulse[i] += F * s->dt;
     sums->work += F * way[i];
     sums->lost += F * (way[i] - moved[i]);

@@ -21,7 +21,11 @@
 // and viscosity sees V x_1 + h_v without what h_v has of the part of a_0 that obstacles stop. Then a node that is
 // touched gets its obstacle's velocity along n, so that none bounces by itself, and none that rests swings with the
 // steps. Of the trapezoid's energy F takes F . ((p - p_0) - (x_1 - x_0)) beside what the obstacle's way p - p_0 gives,
-// at a plane never below 0, and the stop takes more: contact makes none. Were R a force as any other at x_1, nodes that
+// at a plane never below 0, and the stop takes more: contact makes none. So that it makes none round spheres, along whose n nodes
+// that slide move by d^2/(2 r) in a step, they push along the way that makes up for the gap's change (Simo & Tarnow
+// 1992, Gonzalez 2000): with the way y from the centre to the node,
+//   t d,  d = (y_1 + y_0)/(|y_1| + |y_0|),  d . (y_1 - y_0) = g_1 - g_0,
+// whose tangent k d n^T - t (1 - d n^T)/(|y_1| + |y_0|) is taken with d for n. Were R a force as any other at x_1, nodes that
 // rest would swing for ever, and an impact would give back in the next step what it has taken.
 #ifndef VSC_SOLVE_TOUCH_H
 #define VSC_SOLVE_TOUCH_H
@@ -40,6 +44,8 @@ typedef struct vsc_touch {
   double size;         // of the body, mm
   double off;          // largest |g| of the round before, mm
   const double *from;  // node_count x 4: what a first iterate is seen from; NULL in later rounds
+  const double *start; // node_count x 4: where an implicit step began; NULL in equilibria
+  double former;       // when that was, ms
 } vsc_touch;
 
 // Memory for `model`, of a body of `size` (mm): NULL without obstacles. VSC_SYSTEM when memory is short. The caller
@@ -50,9 +56,9 @@ void vsc_touch_free(vsc_touch *touch);  // NULL is fine
 
 // All that follows does nothing where `touch` is NULL.
 
-// To be called before a solution: multipliers begin as the state's, obstacles stand where they are at `time`; the
-// balance has stiffness_factor times the stiffness and mass_factor (1/ms^2) times the masses in its tangent.
-void vsc_touch_begin(vsc_touch *touch, const vsc_state *state, double time, double stiffness_factor,
+// To be called before a solution: multipliers begin as the state's, obstacles stand where they are at `time`, at the
+// end of an implicit `step` from the state or an increment; the balance has stiffness_factor times the stiffness and mass_factor (1/ms^2) times the masses in its tangent.
+void vsc_touch_begin(vsc_touch *touch, const vsc_state *state, double time, bool step, double stiffness_factor,
                      double mass_factor);
 
 // Adds t n to r (node_count x 4, mN) at x (node_count x 4), found from the iterate `before` (likewise; NULL: none).
