@@ -1,37 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/order.h"
 
-#include <stdlib.h>
-
 #include "base/mem.h"
 
 enum { BITS = 20 };
 
+// The lowest 21 bits of `x`, each followed by two zeros.
+static uint64_t spread(uint64_t x)
+{
+  x = (x | x << 32) & UINT64_C(0x1f00000000ffff);
+  x = (x | x << 16) & UINT64_C(0x1f0000ff0000ff);
+  x = (x | x << 8) & UINT64_C(0x100f00f00f00f00f);
+  x = (x | x << 4) & UINT64_C(0x10c30c30c30c30c3);
+  return (x | x << 2) & UINT64_C(0x1249249249249249);
+}
+
 uint64_t vsc_hilbert_index(const uint32_t cell[3], int bits)
 {
   uint32_t axis[3] = {cell[0], cell[1], cell[2]};
-  // undo the curve's rotations, from the coarsest cube to the finest
-  for (uint32_t bit = 1u << (bits - 1); bit > 1; bit >>= 1) {
-    const uint32_t below = bit - 1;
+  // undo the curve's rotations, from the coarsest cube to the finest; without branches, which nobody could foresee
+  for (int b = bits - 1; b > 0; b--) {
+    const uint32_t below = (1u << b) - 1;
     for (int i = 0; i < 3; i++) {
-      const uint32_t exchanged = (axis[0] ^ axis[i]) & below;
-      if (axis[i] & bit) {
-        axis[0] ^= below;
-      } else {
-        axis[0] ^= exchanged;
-        axis[i] ^= exchanged;
-      }
+      const uint32_t turned = 0 - (axis[i] >> b & 1);
+      const uint32_t exchanged = (axis[0] ^ axis[i]) & below & ~turned;
+      axis[0] ^= (below & turned) | exchanged;
+      axis[i] ^= exchanged;
     }
   }
   // Gray code
   for (int i = 1; i < 3; i++) axis[i] ^= axis[i - 1];
-  uint32_t flip = 0;
-  for (uint32_t bit = 1u << (bits - 1); bit > 1; bit >>= 1)
-    if (axis[2] & bit) flip ^= bit - 1;
-  uint64_t index = 0;
-  for (int b = bits - 1; b >= 0; b--)
-    for (int i = 0; i < 3; i++) index = index << 1 | ((axis[i] ^ flip) >> b & 1);
-  return index;
+  uint32_t flip = axis[2] >> 1;
+  for (int shift = 1; shift < 32; shift *= 2) flip ^= flip >> shift;  // each bit the parity of those above it
+  return spread(axis[0] ^ flip) << 2 | spread(axis[1] ^ flip) << 1 | spread(axis[2] ^ flip);
 }
 
 typedef struct sort_key {
@@ -39,12 +40,30 @@ typedef struct sort_key {
   uint32_t group, number;
 } sort_key;
 
-static int compare_keys(const void *left, const void *right)
+// A radix sort's digits, least first: those of the index, then those of the group.
+enum { DIGIT = 11, WIDTH = 1 << DIGIT, OF_INDEX = (3 * BITS + DIGIT - 1) / DIGIT, DIGITS = OF_INDEX + 3 };
+
+static size_t digit_of(const sort_key *key, int d)
 {
-  const sort_key *a = left, *b = right;
-  if (a->group != b->group) return a->group < b->group ? -1 : 1;
-  if (a->index != b->index) return a->index < b->index ? -1 : 1;
-  return a->number < b->number ? -1 : a->number > b->number;
+  const uint64_t from = d < OF_INDEX ? key->index >> d * DIGIT : (uint64_t)key->group >> (d - OF_INDEX) * DIGIT;
+  return from & (WIDTH - 1);
+}
+
+// Sorts by group, then by index; equal ones stay as they were. Returns the sorted keys, which are where `keys` or where
+// `other` were.
+static sort_key *sort_keys(size_t count, sort_key *keys, sort_key *other)
+{
+  for (int d = 0; d < DIGITS; d++) {
+    size_t place[WIDTH + 1] = {0};
+    for (size_t k = 0; k < count; k++) place[digit_of(&keys[k], d) + 1]++;
+    if (count == 0 || place[digit_of(&keys[0], d) + 1] == count) continue;
+    for (int i = 0; i < WIDTH; i++) place[i + 1] += place[i];
+    for (size_t k = 0; k < count; k++) other[place[digit_of(&keys[k], d)]++] = keys[k];
+    sort_key *const sorted = other;
+    other = keys;
+    keys = sorted;
+  }
+  return keys;
 }
 
 static void bounding_box(size_t count, const double *points, double low[3], double *side)
@@ -66,7 +85,7 @@ vsc_status vsc_order_hilbert(size_t count, const double *points, const uint32_t 
                              uint32_t *order, vsc_error *error)
 {
   sort_key *keys;
-  if (!VSC_NEW(keys, count)) return vsc_fail_memory(error, "sorting the elements");
+  if (!VSC_NEW(keys, 2 * count)) return vsc_fail_memory(error, "sorting the elements");
   double low[3], side;
   bounding_box(count, points, low, &side);
   const double scale = side > 0 ? ((1u << BITS) - 1) / side : 0;
@@ -75,8 +94,8 @@ vsc_status vsc_order_hilbert(size_t count, const double *points, const uint32_t 
     for (int i = 0; i < 3; i++) cell[i] = (uint32_t)((points[3 * p + i] - low[i]) * scale);
     keys[p] = (sort_key){vsc_hilbert_index(cell, BITS), group ? group[p] : 0, (uint32_t)p};
   }
-  qsort(keys, count, sizeof *keys, compare_keys);
-  for (size_t p = 0; p < count; p++) order[p] = keys[p].number;
+  const sort_key *sorted = sort_keys(count, keys, keys + count);
+  for (size_t p = 0; p < count; p++) order[p] = sorted[p].number;
   vsc_free(keys);
   return VSC_OK;
 }
