@@ -2,6 +2,7 @@
 #include "mesh/order.h"
 
 #include "base/mem.h"
+#include "base/sort.h"
 
 enum { BITS = 20 };
 
@@ -35,36 +36,11 @@ uint64_t vsc_hilbert_index(const uint32_t cell[3], int bits)
   return spread(axis[0] ^ flip) << 2 | spread(axis[1] ^ flip) << 1 | spread(axis[2] ^ flip);
 }
 
+// What points are sorted by.
 typedef struct sort_key {
-  uint64_t index;
-  uint32_t group, number;
+  uint32_t group, high, low;  // high, low: of the index
+  uint32_t number;
 } sort_key;
-
-// A radix sort's digits, least first: those of the index, then those of the group.
-enum { DIGIT = 11, WIDTH = 1 << DIGIT, OF_INDEX = (3 * BITS + DIGIT - 1) / DIGIT, DIGITS = OF_INDEX + 3 };
-
-static size_t digit_of(const sort_key *key, int d)
-{
-  const uint64_t from = d < OF_INDEX ? key->index >> d * DIGIT : (uint64_t)key->group >> (d - OF_INDEX) * DIGIT;
-  return from & (WIDTH - 1);
-}
-
-// Sorts by group, then by index; equal ones stay as they were. Returns the sorted keys, which are where `keys` or where
-// `other` were.
-static sort_key *sort_keys(size_t count, sort_key *keys, sort_key *other)
-{
-  for (int d = 0; d < DIGITS; d++) {
-    size_t place[WIDTH + 1] = {0};
-    for (size_t k = 0; k < count; k++) place[digit_of(&keys[k], d) + 1]++;
-    if (count == 0 || place[digit_of(&keys[0], d) + 1] == count) continue;
-    for (int i = 0; i < WIDTH; i++) place[i + 1] += place[i];
-    for (size_t k = 0; k < count; k++) other[place[digit_of(&keys[k], d)]++] = keys[k];
-    sort_key *const sorted = other;
-    other = keys;
-    keys = sorted;
-  }
-  return keys;
-}
 
 static void bounding_box(size_t count, const double *points, double low[3], double *side)
 {
@@ -85,17 +61,18 @@ vsc_status vsc_order_hilbert(size_t count, const double *points, const uint32_t 
                              uint32_t *order, vsc_error *error)
 {
   sort_key *keys;
-  if (!VSC_NEW(keys, 2 * count)) return vsc_fail_memory(error, "sorting the elements");
+  if (!VSC_NEW(keys, count)) return vsc_fail_memory(error, "sorting the elements");
   double low[3], side;
   bounding_box(count, points, low, &side);
   const double scale = side > 0 ? ((1u << BITS) - 1) / side : 0;
   for (size_t p = 0; p < count; p++) {
     uint32_t cell[3];
     for (int i = 0; i < 3; i++) cell[i] = (uint32_t)((points[3 * p + i] - low[i]) * scale);
-    keys[p] = (sort_key){vsc_hilbert_index(cell, BITS), group ? group[p] : 0, (uint32_t)p};
+    const uint64_t index = vsc_hilbert_index(cell, BITS);
+    keys[p] = (sort_key){group ? group[p] : 0, (uint32_t)(index >> 32), (uint32_t)index, (uint32_t)p};
   }
-  const sort_key *sorted = sort_keys(count, keys, keys + count);
-  for (size_t p = 0; p < count; p++) order[p] = sorted[p].number;
+  const bool sorted = vsc_sort(keys, count, 4, 3);
+  for (size_t p = 0; p < count; p++) order[p] = keys[p].number;
   vsc_free(keys);
-  return VSC_OK;
+  return sorted ? VSC_OK : vsc_fail_memory(error, "sorting the elements");
 }
