@@ -214,8 +214,8 @@ static vsc_status mark_nodes(const vsc_mesh *mesh, const vsc_selector *selector,
   case VSC_SELECT_SURFACE:
     return mark_surface(selector, surfaces, surface_count, marked, error);
   }
-  return vsc_fail(error, VSC_INPUT, "%s: kind of selection %d is unknown", selector->name,
-                  (int)selector->kind);
+  return vsc_fail(error, VSC_INPUT, "%s: kind of selection %d is none of vsc_select_kind; take one of these",
+                  selector->name, (int)selector->kind);
 }
 
 static vsc_status fail_no_value(const vsc_arrays *arrays, const vsc_selector *selector,

@@ -5,6 +5,13 @@
 
 static const double degree = M_PI / 180;
 
+const char *vsc_fiber_source_name(vsc_fiber_source source)
+{
+  static const char *const names[] = {"none",       "map",          "arrays",     "constant", "helix",    "horizontal",
+                                      "diagonal",   "hemicircular", "helicoidal", "random",   "ellipsoid"};
+  return (size_t)source < sizeof names / sizeof names[0] ? names[source] : "unknown";
+}
+
 vsc_vessel_def vsc_default_vessel(void)
 {
   return (vsc_vessel_def){.unit = 1, .threshold = 0.05};

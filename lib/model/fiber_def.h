@@ -26,6 +26,9 @@ typedef enum vsc_fiber_source {
   VSC_FIBER_ELLIPSOID,     // transmural helix between two ellipsoids, exact (fibers/ellipsoid.h)
 } vsc_fiber_source;
 
+// What a scene calls a source; "unknown" for a number that is none.
+const char *vsc_fiber_source_name(vsc_fiber_source source);
+
 // A voxel map of two angles. f = (cos el cos az, cos el sin az, sin el) in the axes chosen by
 // `image_axes`; az = azimuth_sense (value . scale - azimuth_zero), el = elevation_sense . value .
 // scale.
