@@ -39,3 +39,8 @@ vsc_fiber_def vsc_default_fiber(void)
   vsc_copy_name(fiber.sheet_array, "sheet");
   return fiber;
 }
+
+bool vsc_fiber_needs_surfaces(const vsc_fiber_def *fiber)
+{
+  return fiber->source == VSC_FIBER_HELIX || (fiber->source == VSC_FIBER_ELLIPSOID && fiber->endo[0] != '\0');
+}

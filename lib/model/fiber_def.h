@@ -82,6 +82,9 @@ typedef struct vsc_fiber_def {
 
 vsc_fiber_def vsc_default_fiber(void);
 
+// Whether these fibres hang on the depth between surfaces: HELIX, and ELLIPSOID where they are given.
+bool vsc_fiber_needs_surfaces(const vsc_fiber_def *fiber);
+
 // A vessel that the mesh does not resolve: a closed surface, or centre lines when a radius is given.
 typedef struct vsc_vessel_def {
   char name[VSC_NAME];          // its volume fraction becomes the element array <name>_fraction
