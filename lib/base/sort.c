@@ -8,8 +8,8 @@
 
 enum { DIGIT = 11, WIDTH = 1 << DIGIT, DIGITS = 3 };  // of a word
 
-// Writes the records to `to` in the order of one digit of a word, and returns whether they differ in it: otherwise there
-// is nothing to do.
+// Writes the records to `to` in the order of one digit of a word, and returns whether they differ in it: otherwise
+// there is nothing to do.
 static bool sort_by_digit(const uint32_t *from, size_t count, size_t words, size_t key, int digit, uint32_t *to)
 {
   size_t place[WIDTH + 1] = {0};
