@@ -214,7 +214,7 @@ static vsc_status mark_nodes(const vsc_mesh *mesh, const vsc_selector *selector,
   case VSC_SELECT_SURFACE:
     return mark_surface(selector, surfaces, surface_count, marked, error);
   }
-  return vsc_fail(error, VSC_INPUT, "%s: kind of selection %d is none of vsc_select_kind; take one of these",
+  return vsc_fail(error, VSC_INPUT, "%s: kind of selection %d is unknown; take one of vsc_select_kind",
                   selector->name, (int)selector->kind);
 }
 

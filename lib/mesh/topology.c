@@ -100,10 +100,19 @@ static size_t mix(const side *s)
   return (size_t)(h >> 32);
 }
 
-// Joins the sides [first, end) in cycles. `table`, of `places` places (a power of two), holds 1 + the last side of each
-// face that has come.
-static void join_range(side_list *sides, size_t first, size_t end, size_t places, size_t *table)
+// The places of a table for `count` sides: a power of two.
+static size_t places_for(size_t count)
 {
+  size_t places = 1;
+  while (places < 2 * count) places *= 2;
+  return places;
+}
+
+// Joins the sides [first, end) in cycles. `table` has room for them and holds 1 + the last side of each face that has
+// come.
+static void join_range(side_list *sides, size_t first, size_t end, size_t *table)
+{
+  const size_t places = places_for(end - first);
   memset(table, 0, places * sizeof *table);
   for (size_t k = first; k < end; k++) {
     size_t *at = table + (mix(&sides->items[k]) & (places - 1));
@@ -120,11 +129,10 @@ static void join_range(side_list *sides, size_t first, size_t end, size_t places
 
 static bool join_sides(side_list *sides, const size_t start[RANGES + 1])
 {
-  size_t most = 0, places = 1, *table;
+  size_t most = 0, *table;
   for (int r = 0; r < RANGES; r++) most = start[r + 1] - start[r] > most ? start[r + 1] - start[r] : most;
-  while (places < 2 * most) places *= 2;
-  if (!VSC_NEW(table, places)) return false;
-  for (int r = 0; r < RANGES; r++) join_range(sides, start[r], start[r + 1], places, table);
+  if (!VSC_NEW(table, places_for(most))) return false;
+  for (int r = 0; r < RANGES; r++) join_range(sides, start[r], start[r + 1], table);
   vsc_free(table);
   return true;
 }
