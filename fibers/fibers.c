@@ -224,13 +224,11 @@ static vsc_status from_source(const vsc_mesh *mesh, const vsc_fiber_def *definit
                               const vsc_surface *surfaces, size_t count, vsc_axes *axes,
                               vsc_fiber_report *report, vsc_error *error)
 {
-  const bool between = definition->source == VSC_FIBER_ELLIPSOID && definition->endo[0] != '\0';
-  if (between) return from_depth(mesh, definition, surfaces, count, axes, error);
+  if (vsc_fiber_needs_surfaces(definition)) return from_depth(mesh, definition, surfaces, count, axes, error);
   switch (definition->source) {
     case VSC_FIBER_NONE: return VSC_OK;
     case VSC_FIBER_MAP: return from_map(mesh, &definition->map, axes, report, error);
     case VSC_FIBER_ARRAYS: return from_arrays(mesh, definition, axes, report, error);
-    case VSC_FIBER_HELIX: return from_depth(mesh, definition, surfaces, count, axes, error);
     default: return vsc_fibers_synthetic(mesh, definition, axes, error);
   }
 }

@@ -71,7 +71,8 @@ static vsc_status check(const vsc_fiber_def *definition, vsc_error *error)
   const vsc_fiber_source source = definition->source;
   if (source != VSC_FIBER_CONSTANT &&
       (source < VSC_FIBER_HORIZONTAL || source > VSC_FIBER_ELLIPSOID))
-    return vsc_fail(error, VSC_INPUT, "fibre source %d is not a formula", (int)source);
+    return vsc_fail(error, VSC_INPUT, "fibers.source: %s is not a formula; take constant, horizontal, diagonal, "
+                    "hemicircular, helicoidal, random or ellipsoid, or vsc_fibers_make", vsc_fiber_source_name(source));
   if (source == VSC_FIBER_ELLIPSOID) return vsc_ellipsoid_check(definition, error);
   const double length = vsc_norm(d);
   if (definition->source == VSC_FIBER_CONSTANT && !(isfinite(length) && length >= 1e-6))

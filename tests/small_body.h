@@ -73,6 +73,14 @@ static inline void body_hold(small_body *body, const char *array, int x, int y, 
   vsc_copy_name(body->supports[k].set, array);
 }
 
+// Lets three faces slide in the planes of the axes, so that the body can only stretch.
+static inline void body_hold_planes(small_body *body)
+{
+  body_hold(body, "x0", 1, 0, 0);
+  body_hold(body, "y0", 0, 1, 0);
+  body_hold(body, "z0", 0, 0, 1);
+}
+
 // Every tet's fibre along `fiber`.
 static inline void body_fibers(small_body *body, const double fiber[3])
 {
@@ -113,6 +121,14 @@ static inline size_t body_node(const small_body *body, size_t mesh_node)
     if (body->model->mesh_node[n] == mesh_node) return n;
   fail_msg("no node %zu", mesh_node);
   return 0;
+}
+
+// Every node must be at `stretch` times its place at rest, to `off` mm.
+static inline void body_must_be_stretched(const small_body *body, const double stretch[3], double off)
+{
+  for (size_t n = 0; n < body->model->node_count; n++)
+    for (int i = 0; i < 3; i++)
+      assert_close(body->state->x[4 * n + i], stretch[i] * body->model->rest[4 * n + i], 0, off);
 }
 
 static inline double any_number(uint64_t *seed)  // in [-1, 1)

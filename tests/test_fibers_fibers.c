@@ -11,6 +11,7 @@
 #include "base/mem.h"
 #include "base/vec3.h"
 #include "fibers/fibers.h"
+#include "fibers/synthetic.h"
 #include "io/vtk.h"
 #include "tools/shapes.h"
 #include "trap.h"
@@ -68,6 +69,20 @@ static void none_is_passive(void **state)
   vsc_axes *axes = make(mesh, &definition, &report);
   assert_int_equal(report.passive, mesh->element_count);
   assert_int_equal(axes->known[3], 0);
+  vsc_axes_free(axes);
+  vsc_mesh_free(mesh);
+}
+
+static void a_source_must_be_one(void **state)
+{
+  (void)state;
+  vsc_mesh *mesh = block();
+  const vsc_fiber_def none = from((vsc_fiber_source)99), map = from(VSC_FIBER_MAP);
+  refuse(mesh, &none, "unknown is not a formula");
+  vsc_axes *axes = vsc_axes_create(mesh->element_count);
+  vsc_error error;
+  assert_int_equal(vsc_fibers_synthetic(mesh, &map, axes, &error), VSC_INPUT);
+  assert_non_null(strstr(error.text, "map is not a formula"));
   vsc_axes_free(axes);
   vsc_mesh_free(mesh);
 }
@@ -333,6 +348,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(none_is_passive),    cmocka_unit_test(one_direction),
+      cmocka_unit_test(a_source_must_be_one),
       cmocka_unit_test(figure_six),         cmocka_unit_test(random_fibers_fill_the_sphere),
       cmocka_unit_test(arrays_of_the_mesh), cmocka_unit_test(arrays_of_the_nodes),
       cmocka_unit_test(senses_that_are_meant),

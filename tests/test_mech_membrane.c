@@ -55,6 +55,13 @@ static void open_block(small_body *body, vsc_membrane_def *membrane)
 
 static void (*const openers[])(small_body *, vsc_membrane_def *) = {open_sheet, open_block};
 
+static void open_built(int o, small_body *body)
+{
+  vsc_membrane_def membrane;
+  openers[o](body, &membrane);
+  body_build(body);
+}
+
 static void deform(small_body *body, uint64_t seed, double size)
 {
   for (size_t n = 0; n < body->model->node_count; n++)
@@ -87,9 +94,7 @@ static void forces_are_the_gradient(void **state)
   (void)state;
   for (int o = 0; o < 2; o++) {
     small_body body;
-    vsc_membrane_def membrane;
-    openers[o](&body, &membrane);
-    body_build(&body);
+    open_built(o, &body);
     deform(&body, 11, 0.15);
     const size_t count = 4 * body.model->node_count;
     double *x = vsc_alloc(count, sizeof *x), *d = vsc_alloc(count, sizeof *d);
@@ -123,9 +128,7 @@ static void forces_neither_push_nor_turn(void **state)
   (void)state;
   for (int o = 0; o < 2; o++) {
     small_body body;
-    vsc_membrane_def membrane;
-    openers[o](&body, &membrane);
-    body_build(&body);
+    open_built(o, &body);
     deform(&body, 13, 0.2);
     double *force = vsc_alloc(4 * body.model->node_count, sizeof *force);
     vsc_force(body.model, body.state->x, body.state->v, 0, &body.state->scratch, force);
@@ -155,9 +158,7 @@ static void damping_takes_what_it_says(void **state)
   (void)state;
   for (int o = 0; o < 2; o++) {
     small_body body;
-    vsc_membrane_def membrane;
-    openers[o](&body, &membrane);
-    body_build(&body);
+    open_built(o, &body);
     deform(&body, 17, 0.1);
     const size_t count = 4 * body.model->node_count;
     double *with = vsc_alloc(count, sizeof *with), *without = vsc_alloc(count, sizeof *without);
@@ -227,9 +228,7 @@ static void tangents_are_derivatives(void **state)
   (void)state;
   for (int o = 0; o < 2; o++) {
     small_body body;
-    vsc_membrane_def membrane;
-    openers[o](&body, &membrane);
-    body_build(&body);
+    open_built(o, &body);
     deform(&body, 19, 0.15);
     const size_t count = 4 * body.model->node_count;
     double *d = any_numbers(count, 20), *y = any_numbers(count, 0), *z = any_numbers(count, 0);
@@ -262,9 +261,7 @@ static void tangents_let_rigid_motions_free(void **state)
   (void)state;
   for (int o = 0; o < 2; o++) {
     small_body body;
-    vsc_membrane_def membrane;
-    openers[o](&body, &membrane);
-    body_build(&body);
+    open_built(o, &body);
     const size_t count = 4 * body.model->node_count;
     double *d = any_numbers(count, 21), *y = any_numbers(count, 0);
     tangent_product(&body, NULL, NULL, 1, 0, d, y);
@@ -337,9 +334,7 @@ static void threads_do_not_matter(void **state)
     for (int threads = 1; threads <= 4; threads++) {
       vsc_parallel_set_threads(threads);
       small_body body;
-      vsc_membrane_def membrane;
-      openers[o](&body, &membrane);
-      body_build(&body);
+      open_built(o, &body);
       assert_true(body.model->patch_count > 2);  // else there is nothing to share
       body_start(&body);
       body_shake(&body, 0.2);

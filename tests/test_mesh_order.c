@@ -84,6 +84,42 @@ static void test_points_are_sorted(void **state)
   assert_true(way < 0.4 * crow);  // neighbours in memory are neighbours in space
 }
 
+// Where a point lies along the curve through [0, side]^3.
+static uint64_t index_of(const double point[3], double side)
+{
+  const double scale = ((1u << 20) - 1) / side;
+  uint32_t cell[3];
+  for (int i = 0; i < 3; i++) cell[i] = (uint32_t)(point[i] * scale);
+  return vsc_hilbert_index(cell, 20);
+}
+
+// By group, whose numbers may be large, then along the curve to its last digit, then by number.
+static void test_the_order_is_exact(void **state)
+{
+  (void)state;
+  enum { COUNT = 5000 };
+  static double points[3 * COUNT];
+  static uint32_t group[COUNT], order[COUNT];
+  static const uint32_t groups[4] = {4000000000u, 3000, 7, 0};
+  srand(2);
+  for (int p = 0; p < COUNT; p++) {
+    for (int i = 0; i < 3; i++) points[3 * p + i] = p % 3 == 0 ? rand() % 4 : rand() % 100000 * 3e-5;
+    group[p] = groups[rand() % 4];
+  }
+  assert_int_equal(vsc_order_hilbert(COUNT, points, group, order, NULL), VSC_OK);
+  size_t ties = 0;
+  for (int k = 1; k < COUNT; k++) {
+    const uint32_t a = order[k - 1], b = order[k];
+    const uint64_t before = index_of(points + 3 * a, 3), after = index_of(points + 3 * b, 3);
+    assert_true(group[a] <= group[b]);
+    if (group[a] < group[b]) continue;
+    assert_true(before <= after);
+    if (before == after) assert_true(a < b);
+    ties += before == after;
+  }
+  assert_true(ties > COUNT / 5);
+}
+
 // Equal points, a single one and none at all have an order too: that of their numbers.
 static void test_degenerate_points(void **state)
 {
@@ -102,6 +138,7 @@ int main(void)
       cmocka_unit_test(test_bijection_with_unit_steps),
       cmocka_unit_test(test_refinement_keeps_the_coarse_order),
       cmocka_unit_test(test_points_are_sorted),
+      cmocka_unit_test(test_the_order_is_exact),
       cmocka_unit_test(test_degenerate_points),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

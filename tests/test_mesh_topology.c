@@ -43,12 +43,16 @@ static void every_tet_is_listed_at_its_nodes(void **state)
   vsc_mesh_free(mesh);
 }
 
-// Against the comparison of all pairs.
-static void neighbours_are_those_of_brute_force(void **state)
+// Gives the nodes other numbers: n becomes (n * factor) mod node_count.
+static void renumber(vsc_mesh *mesh, size_t factor)
 {
-  (void)state;
-  const int n[3] = {2, 3, 2};
-  vsc_mesh *mesh = box_mesh(n, 1, checkerboard);
+  for (size_t i = 0; i < mesh->start[mesh->element_count]; i++)
+    mesh->corners[i] = (uint32_t)(mesh->corners[i] * factor % mesh->node_count);
+}
+
+// Against the comparison of all pairs.
+static void compare_with_brute_force(vsc_mesh *mesh)
+{
   vsc_topology topology;
   assert_int_equal(vsc_topology_make(mesh, &topology, NULL), VSC_OK);
   assert_int_equal(topology.crowded_faces, 0);
@@ -65,7 +69,20 @@ static void neighbours_are_those_of_brute_force(void **state)
       assert_int_equal(topology.neighbours[t][i], expected);
     }
   vsc_topology_free(&topology);
-  vsc_mesh_free(mesh);
+}
+
+// The second mesh has more nodes than there are ranges of them, with neighbours in different ones.
+static void neighbours_are_those_of_brute_force(void **state)
+{
+  (void)state;
+  for (int large = 0; large < 2; large++) {
+    const int n[3] = {large ? 7 : 2, large ? 7 : 3, large ? 8 : 2};
+    vsc_mesh *mesh = box_mesh(n, 1, checkerboard);
+    if (large) assert_true(mesh->node_count > 256);
+    renumber(mesh, large ? 101 : 1);
+    compare_with_brute_force(mesh);
+    vsc_mesh_free(mesh);
+  }
 }
 
 static void overlapping_tets_are_counted(void **state)

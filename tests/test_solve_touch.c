@@ -169,9 +169,7 @@ static void a_block_between_planes_has_its_closed_form(void **state)
     const double force = press_force(l, &m);
     assert_close(body.state->contact[0].force[2], force, 1e-6, 0);
     assert_close(body.state->contact[1].force[2], -force, 1e-6, 0);
-    for (size_t n = 0; n < body.model->node_count; n++)
-      for (int i = 0; i < 3; i++)
-        assert_close(body.state->x[4 * n + i], (i < 2 ? m : l) * body.model->rest[4 * n + i], 0, 1e-6);
+    body_must_be_stretched(&body, (const double[]){m, m, l}, 1e-6);
     assert_true(deepest(&body, &furthest) > -1e-7);
     assert_true(furthest < 1e-7);
   }
@@ -246,9 +244,7 @@ static double hertz(size_t n)
   body.material.law = VSC_LAW_NEO_HOOKEAN;
   body.material.shear = G;
   body.material.isochoric = true;
-  body_hold(&body, "x0", 1, 0, 0);
-  body_hold(&body, "y0", 0, 1, 0);
-  body_hold(&body, "z0", 0, 0, 1);
+  body_hold_planes(&body);
   move(&thing, -0.1, 100);
   body.definition.obstacles = &thing;
   body.definition.obstacle_count = 1;

@@ -48,9 +48,11 @@ static vsc_status measure_volumes(vsc_pair *pair, vsc_error *error)
   if (!VSC_NEW(pair->node_volumes, a->node_count) ||
       !VSC_NEW(pair->element_volumes, a->element_count))
     return vsc_fail_memory(error, "volumes");
+  vsc_cell_rule rules[VSC_CELLS];
+  for (int kind = 0; kind < VSC_CELLS; kind++) rules[kind] = vsc_cell_rule_of((vsc_cell)kind);
   for (size_t e = 0; e < a->element_count; e++) {
     double parts[VSC_MOST_CORNERS];
-    vsc_lumped_volumes(a, e, parts);
+    vsc_lumped_volumes(a, &rules[a->kinds[e]], e, parts);
     pair->element_volumes[e] = vsc_mesh_element_volume(a, e);
     for (int i = 0; i < vsc_mesh_kind(a, e)->corners; i++)
       pair->node_volumes[vsc_mesh_corners(a, e)[i]] += parts[i];

@@ -47,9 +47,10 @@ static void stir_mode(const vsc_model *model, uint64_t seed, double *mode, doubl
 
 static double largest(const vsc_model *model, const double *d)
 {
-  double most = 0;
-  for (size_t i = 0; i < 4 * model->node_count; i++) most = fabs(d[i]) > most ? fabs(d[i]) : most;
-  return most;
+  double most[4] = {0};  // one would have to wait for the one before
+  for (size_t n = 0; n < model->node_count; n++)
+    for (int i = 0; i < 4; i++) most[i] = fabs(d[4 * n + i]) > most[i] ? fabs(d[4 * n + i]) : most[i];
+  return fmax(fmax(most[0], most[1]), fmax(most[2], most[3]));
 }
 
 // A length far below an element and far above the rounding of positions.

@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/edges.h"
 
-#include <stdlib.h>
-
 #include "base/mem.h"
+#include "base/sort.h"
 
 static int compare_ends(const vsc_edge *x, const vsc_edge *y)
 {
   if (x->low != y->low) return x->low < y->low ? -1 : 1;
   if (x->high != y->high) return x->high < y->high ? -1 : 1;
   return 0;
-}
-
-static int compare_edges(const void *a, const void *b)
-{
-  const vsc_edge *x = a, *y = b;
-  const int ends = compare_ends(x, y);
-  return ends != 0 ? ends : (x->middle > y->middle) - (x->middle < y->middle);
 }
 
 static vsc_edge edge_between(uint32_t a, uint32_t b, uint32_t middle)
@@ -40,7 +32,10 @@ vsc_status vsc_edges_list(const vsc_mesh *mesh, vsc_edges *edges, vsc_error *err
                                                   middle < 0 ? VSC_NO_MIDDLE : corner[middle]);
     }
   }
-  qsort(edges->items, count, sizeof *edges->items, compare_edges);
+  if (!vsc_sort(edges->items, count, sizeof *edges->items / sizeof(uint32_t), 3)) {
+    vsc_edges_free(edges);
+    return vsc_fail_memory(error, "the mesh's edges");
+  }
   for (size_t k = 0; k < count; k++)
     if (kept == 0 || compare_ends(&edges->items[kept - 1], &edges->items[k]) != 0)
       edges->items[kept++] = edges->items[k];

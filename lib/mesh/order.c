@@ -1,51 +1,46 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/order.h"
 
-#include <stdlib.h>
-
 #include "base/mem.h"
+#include "base/sort.h"
 
 enum { BITS = 20 };
+
+// The lowest 21 bits of `x`, each followed by two zeros.
+static uint64_t spread(uint64_t x)
+{
+  x = (x | x << 32) & UINT64_C(0x1f00000000ffff);
+  x = (x | x << 16) & UINT64_C(0x1f0000ff0000ff);
+  x = (x | x << 8) & UINT64_C(0x100f00f00f00f00f);
+  x = (x | x << 4) & UINT64_C(0x10c30c30c30c30c3);
+  return (x | x << 2) & UINT64_C(0x1249249249249249);
+}
 
 uint64_t vsc_hilbert_index(const uint32_t cell[3], int bits)
 {
   uint32_t axis[3] = {cell[0], cell[1], cell[2]};
-  // undo the curve's rotations, from the coarsest cube to the finest
-  for (uint32_t bit = 1u << (bits - 1); bit > 1; bit >>= 1) {
-    const uint32_t below = bit - 1;
+  // undo the curve's rotations, from the coarsest cube to the finest; without branches, which nobody could foresee
+  for (int b = bits - 1; b > 0; b--) {
+    const uint32_t below = (1u << b) - 1;
     for (int i = 0; i < 3; i++) {
-      const uint32_t exchanged = (axis[0] ^ axis[i]) & below;
-      if (axis[i] & bit) {
-        axis[0] ^= below;
-      } else {
-        axis[0] ^= exchanged;
-        axis[i] ^= exchanged;
-      }
+      const uint32_t turned = 0 - (axis[i] >> b & 1);
+      const uint32_t exchanged = (axis[0] ^ axis[i]) & below & ~turned;
+      axis[0] ^= (below & turned) | exchanged;
+      axis[i] ^= exchanged;
     }
   }
   // Gray code
   for (int i = 1; i < 3; i++) axis[i] ^= axis[i - 1];
-  uint32_t flip = 0;
-  for (uint32_t bit = 1u << (bits - 1); bit > 1; bit >>= 1)
-    if (axis[2] & bit) flip ^= bit - 1;
-  uint64_t index = 0;
-  for (int b = bits - 1; b >= 0; b--)
-    for (int i = 0; i < 3; i++) index = index << 1 | ((axis[i] ^ flip) >> b & 1);
-  return index;
+  uint32_t flip = axis[2] >> 1;
+  for (int shift = 1; shift < 32; shift *= 2) flip ^= flip >> shift;  // each bit the parity of those above it
+  return spread(axis[0] ^ flip) << 2 | spread(axis[1] ^ flip) << 1 | spread(axis[2] ^ flip);
 }
 
+// What points are sorted by.
 typedef struct sort_key {
-  uint64_t index;
-  uint32_t group, number;
+  uint32_t group, high, low;  // high, low: of the index
+  uint32_t number;
 } sort_key;
-
-static int compare_keys(const void *left, const void *right)
-{
-  const sort_key *a = left, *b = right;
-  if (a->group != b->group) return a->group < b->group ? -1 : 1;
-  if (a->index != b->index) return a->index < b->index ? -1 : 1;
-  return a->number < b->number ? -1 : a->number > b->number;
-}
 
 static void bounding_box(size_t count, const double *points, double low[3], double *side)
 {
@@ -73,10 +68,11 @@ vsc_status vsc_order_hilbert(size_t count, const double *points, const uint32_t 
   for (size_t p = 0; p < count; p++) {
     uint32_t cell[3];
     for (int i = 0; i < 3; i++) cell[i] = (uint32_t)((points[3 * p + i] - low[i]) * scale);
-    keys[p] = (sort_key){vsc_hilbert_index(cell, BITS), group ? group[p] : 0, (uint32_t)p};
+    const uint64_t index = vsc_hilbert_index(cell, BITS);
+    keys[p] = (sort_key){group ? group[p] : 0, (uint32_t)(index >> 32), (uint32_t)index, (uint32_t)p};
   }
-  qsort(keys, count, sizeof *keys, compare_keys);
+  const bool sorted = vsc_sort(keys, count, 4, 3);
   for (size_t p = 0; p < count; p++) order[p] = keys[p].number;
   vsc_free(keys);
-  return VSC_OK;
+  return sorted ? VSC_OK : vsc_fail_memory(error, "sorting the elements");
 }

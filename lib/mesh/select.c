@@ -46,31 +46,35 @@ static vsc_status copy_triangles(const vsc_mesh *mesh, vsc_surface *boundary, vs
   return VSC_OK;
 }
 
+// The triangles of all open faces, in the order of the elements.
+static vsc_status list_open(const vsc_mesh *mesh, const uint8_t *open, vsc_surface *boundary, vsc_error *error)
+{
+  size_t count = 0;
+  for (size_t e = 0; e < mesh->element_count; e++)
+    for (int i = 0; open[e] >> i != 0; i++)
+      if (open[e] >> i & 1) count += vsc_mesh_kind(mesh, e)->faces[i][3] < 0 ? 1 : 2;
+  if (!VSC_NEW(boundary->triangles, 3 * count) ||
+      (vsc_mesh_is_quadratic(mesh) && !VSC_NEW(boundary->mid, 3 * count))) {
+    vsc_surface_free(boundary);
+    return vsc_fail_memory(error, "the mesh's boundary");
+  }
+  for (size_t e = 0; e < mesh->element_count; e++)
+    for (int i = 0; open[e] >> i != 0; i++)
+      if (open[e] >> i & 1)
+        add_face(boundary, vsc_mesh_kind(mesh, e), vsc_mesh_kind(mesh, e)->faces[i], vsc_mesh_corners(mesh, e));
+  return VSC_OK;
+}
+
 vsc_status vsc_boundary(const vsc_mesh *mesh, vsc_surface *boundary, vsc_error *error)
 {
   *boundary = (vsc_surface){.name = "boundary"};
   if (mesh->element_count == 0) return copy_triangles(mesh, boundary, error);
-  vsc_topology topology;
-  const vsc_status status = vsc_topology_make(mesh, &topology, error);
-  if (status != VSC_OK) return status;
-
-  size_t count = 0;
-  for (size_t e = 0; e < mesh->element_count; e++)
-    for (int i = 0; i < vsc_mesh_kind(mesh, e)->face_count; i++)
-      if (topology.neighbours[e][i] < 0) count += vsc_mesh_kind(mesh, e)->faces[i][3] < 0 ? 1 : 2;
-  if (!VSC_NEW(boundary->triangles, 3 * count) ||
-      (vsc_mesh_is_quadratic(mesh) && !VSC_NEW(boundary->mid, 3 * count))) {
-    vsc_surface_free(boundary);
-    vsc_topology_free(&topology);
-    return vsc_fail_memory(error, "the mesh's boundary");
-  }
-  for (size_t e = 0; e < mesh->element_count; e++)
-    for (int i = 0; i < vsc_mesh_kind(mesh, e)->face_count; i++)
-      if (topology.neighbours[e][i] < 0)
-        add_face(boundary, vsc_mesh_kind(mesh, e), vsc_mesh_kind(mesh, e)->faces[i],
-                 vsc_mesh_corners(mesh, e));
-  vsc_topology_free(&topology);
-  return VSC_OK;
+  uint8_t *open;
+  if (!VSC_NEW(open, mesh->element_count)) return vsc_fail_memory(error, "the mesh's boundary");
+  vsc_status status = vsc_open_faces(mesh, open, error);
+  if (status == VSC_OK) status = list_open(mesh, open, boundary, error);
+  vsc_free(open);
+  return status;
 }
 
 static vsc_status find_array(const vsc_arrays *arrays, const char *kind,
@@ -210,8 +214,8 @@ static vsc_status mark_nodes(const vsc_mesh *mesh, const vsc_selector *selector,
   case VSC_SELECT_SURFACE:
     return mark_surface(selector, surfaces, surface_count, marked, error);
   }
-  return vsc_fail(error, VSC_INPUT, "%s: kind of selection %d is unknown", selector->name,
-                  (int)selector->kind);
+  return vsc_fail(error, VSC_INPUT, "%s: kind of selection %d is unknown; take one of vsc_select_kind",
+                  selector->name, (int)selector->kind);
 }
 
 static vsc_status fail_no_value(const vsc_arrays *arrays, const vsc_selector *selector,

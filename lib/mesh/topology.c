@@ -3,6 +3,7 @@
 
 #include <stdbool.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/mem.h"
 
@@ -29,104 +30,156 @@ typedef struct side {
 
 #define NO_NODE UINT32_MAX
 
+static void put_in_order(uint32_t *a, uint32_t *b)
+{
+  const uint32_t low = *a < *b ? *a : *b, high = *a < *b ? *b : *a;
+  *a = low;
+  *b = high;
+}
+
 static side side_of(const vsc_mesh *mesh, uint32_t element, int number)
 {
   const int *at = vsc_mesh_kind(mesh, element)->faces[number];
   const uint32_t *corners = vsc_mesh_corners(mesh, element);
-  side s = {.nodes = {NO_NODE, NO_NODE, NO_NODE, NO_NODE}, .element = element, .number = number};
-  for (int i = 0; i < 4 && at[i] >= 0; i++) {
-    const uint32_t node = corners[at[i]];
-    int place = i;
-    for (; place > 0 && s.nodes[place - 1] > node; place--) s.nodes[place] = s.nodes[place - 1];
-    s.nodes[place] = node;
-  }
+  side s = {.nodes = {corners[at[0]], corners[at[1]], corners[at[2]], at[3] < 0 ? NO_NODE : corners[at[3]]},
+            .element = element,
+            .number = number};
+  put_in_order(&s.nodes[0], &s.nodes[1]);
+  put_in_order(&s.nodes[2], &s.nodes[3]);
+  put_in_order(&s.nodes[0], &s.nodes[2]);
+  put_in_order(&s.nodes[1], &s.nodes[3]);
+  put_in_order(&s.nodes[1], &s.nodes[2]);
   return s;
 }
 
-static int compare_nodes(const side *a, const side *b)
+static bool are_one_face(const side *a, const side *b)
 {
-  for (int i = 0; i < 4; i++)
-    if (a->nodes[i] != b->nodes[i]) return a->nodes[i] < b->nodes[i] ? -1 : 1;
-  return 0;
+  return memcmp(a->nodes, b->nodes, sizeof a->nodes) == 0;
 }
 
-static int compare_sides(const void *a, const void *b)
+// All sides, and for each the next one with the same nodes, in a cycle; one that is alone is its own next.
+typedef struct side_list {
+  size_t count;
+  side *items;
+  size_t *next;
+} side_list;
+
+// Sides are sorted by ranges of their smallest node first, so that the search for those with the same nodes stays in
+// the caches: meshes whose nodes and elements come in any order take little longer than others.
+enum { RANGES = 256 };
+
+// A node's range is its number divided by 2^bits.
+static int range_bits(const vsc_mesh *mesh)
 {
-  const side *first = a, *second = b;
-  const int nodes = compare_nodes(first, second);
-  return nodes != 0 ? nodes : (first->element > second->element) - (first->element < second->element);
+  int bits = 0;
+  while (mesh->node_count >> bits >= RANGES) bits++;
+  return bits;
 }
 
-// Whether `node` is the smallest of a face, given as corners of an element with the nodes `corners`.
-static bool is_smallest(uint32_t node, const int *at, const uint32_t *corners)
+// Range r gets the sides from start[r] on.
+static void fill_ranges(const vsc_mesh *mesh, side_list *sides, size_t start[RANGES + 1])
 {
-  bool present = false;
-  for (int i = 0; i < 4 && at[i] >= 0; i++) {
-    if (corners[at[i]] < node) return false;
-    present |= corners[at[i]] == node;
-  }
-  return present;
+  const int bits = range_bits(mesh);
+  size_t place[RANGES + 1] = {0};
+  for (uint32_t e = 0; e < mesh->element_count; e++)
+    for (int i = 0; i < vsc_mesh_kind(mesh, e)->face_count; i++) place[(side_of(mesh, e, i).nodes[0] >> bits) + 1]++;
+  for (int r = 0; r < RANGES; r++) place[r + 1] += place[r];
+  memcpy(start, place, sizeof place);
+  for (uint32_t e = 0; e < mesh->element_count; e++)
+    for (int i = 0; i < vsc_mesh_kind(mesh, e)->face_count; i++) {
+      const side s = side_of(mesh, e, i);
+      sides->items[place[s.nodes[0] >> bits]++] = s;
+    }
 }
 
-// The sides of which `node` is the smallest: every face is listed at one node. `list` has room for all faces
-// of the node's elements.
-static size_t list_sides(const vsc_mesh *mesh, const vsc_topology *topology, uint32_t node, side *list)
+// A number without pattern for the nodes of a side.
+static size_t mix(const side *s)
 {
-  size_t count = 0;
-  for (size_t k = topology->node_start[node]; k < topology->node_start[node + 1]; k++) {
-    const uint32_t element = topology->node_elements[k];
-    const vsc_cell_kind *kind = vsc_mesh_kind(mesh, element);
-    const uint32_t *corners = vsc_mesh_corners(mesh, element);
-    for (int number = 0; number < kind->face_count; number++)
-      if (is_smallest(node, kind->faces[number], corners)) list[count++] = side_of(mesh, element, number);
-  }
-  return count;
+  uint64_t h = 0;
+  for (int i = 0; i < 4; i++) h = (h ^ s->nodes[i]) * UINT64_C(0x9e3779b97f4a7c15);
+  return (size_t)(h >> 32);
 }
 
-static void sort_sides(side *list, size_t count)
+// The places of a table for `count` sides: a power of two.
+static size_t places_for(size_t count)
 {
-  enum { FEW = 64 };
-  if (count > FEW) {
-    qsort(list, count, sizeof *list, compare_sides);
-    return;
-  }
-  for (size_t i = 1; i < count; i++) {
-    const side s = list[i];
-    size_t place = i;
-    for (; place > 0 && compare_sides(&list[place - 1], &s) > 0; place--) list[place] = list[place - 1];
-    list[place] = s;
+  size_t places = 1;
+  while (places < 2 * count) places *= 2;
+  return places;
+}
+
+// Joins the sides [first, end) in cycles. `table` has room for them and holds 1 + the last side of each face that has
+// come.
+static void join_range(side_list *sides, size_t first, size_t end, size_t *table)
+{
+  const size_t places = places_for(end - first);
+  memset(table, 0, places * sizeof *table);
+  for (size_t k = first; k < end; k++) {
+    size_t *at = table + (mix(&sides->items[k]) & (places - 1));
+    while (*at != 0 && !are_one_face(&sides->items[*at - 1], &sides->items[k]))
+      if (++at == table + places) at = table;
+    sides->next[k] = k;
+    if (*at != 0) {
+      sides->next[k] = sides->next[*at - 1];
+      sides->next[*at - 1] = k;
+    }
+    *at = k + 1;
   }
 }
 
-// Sides with the same nodes are neighbours, each of the next in a cycle.
-static void join_sides(const side *list, size_t count, vsc_topology *topology)
+static bool join_sides(side_list *sides, const size_t start[RANGES + 1])
 {
-  for (size_t first = 0, end; first < count; first = end) {
-    for (end = first + 1; end < count && compare_nodes(&list[first], &list[end]) == 0;) end++;
-    if (end - first > 2) topology->crowded_faces++;
-    for (size_t k = first; end - first > 1 && k < end; k++)
-      topology->neighbours[list[k].element][list[k].number] =
-          (int32_t)list[k + 1 < end ? k + 1 : first].element;
-  }
+  size_t most = 0, *table;
+  for (int r = 0; r < RANGES; r++) most = start[r + 1] - start[r] > most ? start[r + 1] - start[r] : most;
+  if (!VSC_NEW(table, places_for(most))) return false;
+  for (int r = 0; r < RANGES; r++) join_range(sides, start[r], start[r + 1], table);
+  vsc_free(table);
+  return true;
+}
+
+static void free_sides(side_list *sides)
+{
+  vsc_free(sides->items);
+  vsc_free(sides->next);
+}
+
+// To be released also when memory was short.
+static bool list_sides(const vsc_mesh *mesh, side_list *sides)
+{
+  size_t start[RANGES + 1];
+  *sides = (side_list){0};
+  for (size_t e = 0; e < mesh->element_count; e++) sides->count += (size_t)vsc_mesh_kind(mesh, e)->face_count;
+  if (!VSC_NEW(sides->items, sides->count) || !VSC_NEW(sides->next, sides->count)) return false;
+  fill_ranges(mesh, sides, start);
+  return join_sides(sides, start);
 }
 
 static bool find_neighbours(const vsc_mesh *mesh, vsc_topology *topology)
 {
-  const size_t *start = topology->node_start;
-  size_t most = 0;
-  for (size_t n = 0; n < mesh->node_count; n++)
-    if (start[n + 1] - start[n] > most) most = start[n + 1] - start[n];
+  side_list sides;
   for (size_t e = 0; e < mesh->element_count; e++)
     for (int i = 0; i < VSC_MOST_FACES; i++) topology->neighbours[e][i] = VSC_OUTSIDE;
-  side *list;
-  if (!VSC_NEW(list, VSC_MOST_FACES * most)) return false;
-  for (size_t n = 0; n < mesh->node_count; n++) {
-    const size_t count = list_sides(mesh, topology, (uint32_t)n, list);
-    sort_sides(list, count);
-    join_sides(list, count, topology);
+  const bool listed = list_sides(mesh, &sides);
+  for (size_t k = 0; k < sides.count && listed; k++) {
+    const side *s = &sides.items[k];
+    const size_t next = sides.next[k];
+    if (next == k) continue;
+    topology->neighbours[s->element][s->number] = (int32_t)sides.items[next].element;
+    topology->crowded_faces += next < k && sides.next[next] != k;
   }
-  vsc_free(list);
-  return true;
+  free_sides(&sides);
+  return listed;
+}
+
+vsc_status vsc_open_faces(const vsc_mesh *mesh, uint8_t *open, vsc_error *error)
+{
+  side_list sides;
+  const bool listed = list_sides(mesh, &sides);
+  memset(open, 0, mesh->element_count);
+  for (size_t k = 0; k < sides.count && listed; k++)
+    if (sides.next[k] == k) open[sides.items[k].element] |= (uint8_t)(1 << sides.items[k].number);
+  free_sides(&sides);
+  return listed ? VSC_OK : vsc_fail_memory(error, "the mesh's boundary");
 }
 
 // Whether a triangle of another element lies on a quadrilateral face: on any two opposite corners

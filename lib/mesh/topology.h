@@ -36,4 +36,8 @@ vsc_status vsc_topology_make(const vsc_mesh *mesh, vsc_topology *topology, vsc_e
 // Frees the content; an empty (zeroed) one is fine.
 void vsc_topology_free(vsc_topology *topology);
 
+// Marks the faces with nothing across (VSC_OUTSIDE, VSC_SPLIT): bit i of open[e] for face i of element e of
+// element_count. What a boundary needs, in less time and memory than a topology. VSC_SYSTEM when memory is short.
+vsc_status vsc_open_faces(const vsc_mesh *mesh, uint8_t *open, vsc_error *error);
+
 #endif

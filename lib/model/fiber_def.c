@@ -5,6 +5,13 @@
 
 static const double degree = M_PI / 180;
 
+const char *vsc_fiber_source_name(vsc_fiber_source source)
+{
+  static const char *const names[] = {"none",       "map",          "arrays",     "constant", "helix",    "horizontal",
+                                      "diagonal",   "hemicircular", "helicoidal", "random",   "ellipsoid"};
+  return (size_t)source < sizeof names / sizeof names[0] ? names[source] : "unknown";
+}
+
 vsc_vessel_def vsc_default_vessel(void)
 {
   return (vsc_vessel_def){.unit = 1, .threshold = 0.05};
@@ -31,4 +38,9 @@ vsc_fiber_def vsc_default_fiber(void)
   vsc_copy_name(fiber.fiber_array, "fiber");
   vsc_copy_name(fiber.sheet_array, "sheet");
   return fiber;
+}
+
+bool vsc_fiber_needs_surfaces(const vsc_fiber_def *fiber)
+{
+  return fiber->source == VSC_FIBER_HELIX || (fiber->source == VSC_FIBER_ELLIPSOID && fiber->endo[0] != '\0');
 }

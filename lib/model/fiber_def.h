@@ -26,6 +26,9 @@ typedef enum vsc_fiber_source {
   VSC_FIBER_ELLIPSOID,     // transmural helix between two ellipsoids, exact (fibers/ellipsoid.h)
 } vsc_fiber_source;
 
+// What a scene calls a source; "unknown" for a number that is none.
+const char *vsc_fiber_source_name(vsc_fiber_source source);
+
 // A voxel map of two angles. f = (cos el cos az, cos el sin az, sin el) in the axes chosen by
 // `image_axes`; az = azimuth_sense (value . scale - azimuth_zero), el = elevation_sense . value .
 // scale.
@@ -78,6 +81,9 @@ typedef struct vsc_fiber_def {
 } vsc_fiber_def;
 
 vsc_fiber_def vsc_default_fiber(void);
+
+// Whether these fibres hang on the depth between surfaces: HELIX, and ELLIPSOID where they are given.
+bool vsc_fiber_needs_surfaces(const vsc_fiber_def *fiber);
 
 // A vessel that the mesh does not resolve: a closed surface, or centre lines when a radius is given.
 typedef struct vsc_vessel_def {

@@ -135,12 +135,12 @@ static void corners_of(const vsc_mesh *mesh, size_t element, double x[VSC_MOST_C
     memcpy(x[c], mesh->nodes + 3 * (size_t)corner[c], sizeof x[c]);
 }
 
-void vsc_lumped_volumes(const vsc_mesh *mesh, size_t element, double volumes[VSC_MOST_CORNERS])
+void vsc_lumped_volumes(const vsc_mesh *mesh, const vsc_cell_rule *rule, size_t element,
+                        double volumes[VSC_MOST_CORNERS])
 {
   double x[VSC_MOST_CORNERS][3];
   corners_of(mesh, element, x);
   const int corners = vsc_mesh_kind(mesh, element)->corners;
-  const vsc_cell_rule rule = vsc_cell_rule_of((vsc_cell)mesh->kinds[element]);
   for (int c = 0; c < corners; c++) volumes[c] = 0;
   if (mesh->kinds[element] == VSC_TET10) {
     // the row sums of corners would be negative: int N_c^2 dV, scaled
@@ -148,14 +148,14 @@ void vsc_lumped_volumes(const vsc_mesh *mesh, size_t element, double volumes[VSC
     for (int c = 0; c < corners; c++) volumes[c] = volume * (c < 4 ? 1.0 / 36 : 4.0 / 27);
     return;
   }
-  for (int q = 0; q < rule.points; q++) {
+  for (int q = 0; q < rule->points; q++) {
     double h[3][3] = {{0}}, dual[3];
     for (int k = 0; k < 3; k++)
       for (int c = 0; c < corners; c++)
-        for (int i = 0; i < 3; i++) h[k][i] += rule.D[q][k][c] * x[c][i];
+        for (int i = 0; i < 3; i++) h[k][i] += rule->D[q][k][c] * x[c][i];
     vsc_cross(h[1], h[2], dual);
     for (int c = 0; c < corners; c++)
-      volumes[c] += rule.weight[q] * vsc_dot(h[0], dual) * rule.N[q][c];
+      volumes[c] += rule->weight[q] * vsc_dot(h[0], dual) * rule->N[q][c];
   }
 }
 
@@ -266,12 +266,13 @@ vsc_status vsc_voronoi_masses(const vsc_mesh *mesh, const double *density, doubl
 
 // ---- masses
 
-static void lumped_masses(const vsc_mesh *mesh, const double *density, double *masses)
+static void lumped_masses(const vsc_mesh *mesh, const vsc_cell_rule rules[VSC_CELLS], const double *density,
+                          double *masses)
 {
   for (size_t e = 0; e < mesh->element_count; e++) {
     double volumes[VSC_MOST_CORNERS];
     const uint32_t *corner = vsc_mesh_corners(mesh, e);
-    vsc_lumped_volumes(mesh, e, volumes);
+    vsc_lumped_volumes(mesh, &rules[mesh->kinds[e]], e, volumes);
     for (int c = 0; c < vsc_mesh_kind(mesh, e)->corners; c++)
       masses[corner[c]] += density[e] * volumes[c];
   }
@@ -333,7 +334,7 @@ vsc_status vsc_terms_masses(const vsc_mesh *mesh, const vsc_definition *definiti
   if (definition->masses == VSC_MASS_VORONOI)
     status = vsc_voronoi_masses(mesh, density, masses, error);
   else
-    lumped_masses(mesh, density, masses);
+    lumped_masses(mesh, model->rules, density, masses);
   add_membranes(model, masses);
   if (status == VSC_OK) status = finish_masses(mesh, definition, masses, model, error);
   vsc_free(masses);

@@ -8,8 +8,9 @@
 // Row sums of the consistent mass at density 1: volumes[c] = int N_c dV, mm^3, for each corner of
 // `element`; a quarter each of a tet. Of a quadratic tet the diagonal of the consistent mass scaled to
 // the element's (Hinton, Rock & Zienkiewicz 1976), as with straight edges: 1/36 of the volume to each
-// corner, 4/27 to each middle.
-void vsc_lumped_volumes(const vsc_mesh *mesh, size_t element, double volumes[VSC_MOST_CORNERS]);
+// corner, 4/27 to each middle. `rule` is that of its kind.
+void vsc_lumped_volumes(const vsc_mesh *mesh, const vsc_cell_rule *rule, size_t element,
+                        double volumes[VSC_MOST_CORNERS]);
 
 // int N_i N_j dV / V of nodes i, j of a quadratic tet with straight edges; with bent ones it stands for
 // them too.

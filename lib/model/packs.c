@@ -2,6 +2,7 @@
 // The packs of a patch, filled from its parts.
 #include <string.h>
 
+#include "base/mem.h"
 #include "base/vec3.h"
 #include "model/paper.h"
 #include "model/patches.h"
@@ -52,14 +53,13 @@ static vsc_status fill_paper_data(const filling *fill, size_t element, const dou
   return VSC_OK;
 }
 
-static vsc_status fill_cell(const filling *fill, size_t element, size_t index, int lane,
+static vsc_status fill_cell(const filling *fill, size_t element, const uint32_t *corner, size_t index, int lane,
                             vsc_error *error)
 {
   static const double global_axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   vsc_model *model = fill->model;
   const vsc_patch *patch = fill->patch;
   const vsc_cell_rule *rule = &model->rules[patch->family];
-  const uint32_t *corner = vsc_mesh_corners(fill->mesh, element);
   const double *frame = fill->axes ? vsc_axes_frame(fill->axes, element, 0) : global_axes;
   const size_t k = patch->first_pack + index, slot = VSC_WIDTH * k + (size_t)lane;
   vsc_frame *frames = (vsc_frame *)(uintptr_t)vsc_pack_frames(model, patch, k);
@@ -124,23 +124,37 @@ static void fill_bend(const filling *fill, const vsc_sheet *sheet, uint32_t tria
     pack->node[i][lane] = (uint16_t)fill->local[sheet->nodes[triangle][i]];
 }
 
-vsc_status vsc_patch_fill(const vsc_mesh *mesh, const vsc_axes *axes, const vsc_parts *parts,
-                          const uint32_t *order, size_t count, const uint32_t *local,
-                          const vsc_patch *patch, vsc_model *model, vsc_error *error)
+// Asks for the axes of an element that is to come: elements are anywhere in the mesh.
+static void prefetch_axes(const vsc_axes *axes, size_t element)
 {
+  const char *frames = (const char *)vsc_axes_frame(axes, element, 0);
+  const size_t bytes = 9 * sizeof(double) * (size_t)axes->points;
+  for (size_t byte = 0; byte < bytes; byte += VSC_ALIGNMENT) __builtin_prefetch(frames + byte);
+  __builtin_prefetch(frames + bytes - 1);
+  __builtin_prefetch(axes->known + element);
+}
+
+vsc_status vsc_patch_fill(const vsc_mesh *mesh, const vsc_axes *axes, const vsc_patch_parts *parts,
+                          const uint32_t *local, const vsc_patch *patch, vsc_model *model, vsc_error *error)
+{
+  enum { AHEAD = 8 };
   const filling fill = {mesh, axes, patch, model, local};
-  for (size_t k = 0; k < count; k++) {
-    const size_t part = order[k], index = k / VSC_WIDTH;
+  const size_t corners = (size_t)vsc_family_corners(patch->family);
+  const bool solid = vsc_patch_is_solid(patch);
+  for (size_t k = 0; k < parts->count; k++) {
+    const size_t index = k / VSC_WIDTH;
     const int lane = (int)(k % VSC_WIDTH);
-    if (vsc_patch_is_solid(patch)) {
-      const vsc_status status = fill_cell(&fill, parts->source[part], index, lane, error);
+    const uint32_t *nodes = parts->nodes + corners * k;
+    if (solid && axes != NULL && k + AHEAD < parts->count) prefetch_axes(axes, parts->source[k + AHEAD]);
+    if (solid) {
+      const vsc_status status = fill_cell(&fill, parts->source[k], nodes, index, lane, error);
       if (status != VSC_OK) return status;
     } else if (patch->family == VSC_TRIANGLES) {
-      fill_triangle(&fill, &parts->sheets[patch->material], parts->source[part], index, lane);
+      fill_triangle(&fill, &parts->sheets[patch->material], parts->source[k], index, lane);
     } else if (patch->family == VSC_BENDS) {
-      fill_bend(&fill, &parts->sheets[patch->material], parts->source[part], index, lane);
+      fill_bend(&fill, &parts->sheets[patch->material], parts->source[k], index, lane);
     } else {
-      fill_spring(&fill, parts->nodes + parts->start[part], index, lane);
+      fill_spring(&fill, nodes, index, lane);
     }
   }
   return VSC_OK;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model/parts.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/sort.h"
 
 // Families of a material: the cells and the springs on their edges.
 enum { OF_MATERIAL = VSC_CELLS + 1 };
@@ -88,14 +88,6 @@ static void add_spring(spring_list *list, uint32_t a, uint32_t b, size_t element
       (spring){.node = {a < b ? a : b, a < b ? b : a}, .element = (uint32_t)element};
 }
 
-static int compare_springs(const void *a, const void *b)
-{
-  const spring *x = a, *y = b;
-  for (int i = 0; i < 2; i++)
-    if (x->node[i] != y->node[i]) return x->node[i] < y->node[i] ? -1 : 1;
-  return (x->element > y->element) - (x->element < y->element);
-}
-
 // One spring on each edge, of the first element that has it, and on each main diagonal of a
 // hexahedron.
 static vsc_status list_springs(const vsc_mesh *mesh, const uint32_t *material_of,
@@ -116,7 +108,8 @@ static vsc_status list_springs(const vsc_mesh *mesh, const uint32_t *material_of
     for (int i = 0; i < 4 && mesh->kinds[e] == VSC_HEX; i++)
       add_spring(list, corner[diagonals[i][0]], corner[diagonals[i][1]], e);
   }
-  qsort(list->items, list->count, sizeof *list->items, compare_springs);
+  if (!vsc_sort(list->items, list->count, sizeof *list->items / sizeof(uint32_t), 2))
+    return vsc_fail_memory(error, "classical springs");
   size_t kept = 0;
   for (size_t k = 0; k < list->count; k++)
     if (kept == 0 || memcmp(list->items[kept - 1].node, list->items[k].node, 8) != 0)

@@ -20,6 +20,7 @@ typedef struct cutter {
   uint32_t *order;       // parts in their new order
   size_t *place;         // parts + 1: the nodes of the k-th part in that order are nodes[place[k] ...]
   uint32_t *nodes;       // of the mesh
+  uint32_t *source;      // parts: vsc_parts.source in that order
   uint32_t *first_part;  // patch_count + 1: patch p has order[first_part[p] ...]
   uint32_t *seen;        // mesh node -> the patch that touched it last
   uint32_t *patches_of;  // mesh node -> number of patches that touch it
@@ -60,6 +61,7 @@ static vsc_status order_parts(cutter *cut, vsc_error *error)
     const size_t part = cut->order[k], first = parts->start[part];
     const size_t count = parts->start[part + 1] - first;
     memcpy(cut->nodes + cut->place[k], parts->nodes + first, count * sizeof *cut->nodes);
+    cut->source[k] = parts->source[part];
     cut->place[k + 1] = cut->place[k] + count;
   }
   return VSC_OK;
@@ -212,10 +214,12 @@ static vsc_status fill_patches(cutter *cut, const vsc_axes *axes, vsc_model *mod
       cut->local[model->mesh_node[patch->first_node + n]] = n;
     for (uint32_t n = 0; n < patch->shared_count; n++)
       cut->local[model->mesh_node[model->shared[patch->first_shared + n]]] = patch->own_count + n;
-    const uint32_t *order = cut->order + cut->first_part[p];
-    const vsc_status status =
-        vsc_patch_fill(cut->mesh, axes, cut->parts, order, cut->first_part[p + 1] - cut->first_part[p],
-                       cut->local, patch, model, error);
+    const size_t first = cut->first_part[p];
+    const vsc_patch_parts parts = {.count = cut->first_part[p + 1] - first,
+                                   .source = cut->source + first,
+                                   .nodes = cut->nodes + cut->place[first],
+                                   .sheets = cut->parts->sheets};
+    const vsc_status status = vsc_patch_fill(cut->mesh, axes, &parts, cut->local, patch, model, error);
     if (status != VSC_OK) return status;
   }
   return VSC_OK;
@@ -276,15 +280,16 @@ vsc_status vsc_patches_build(const vsc_mesh *mesh, const vsc_axes *axes, const v
     model->rules[kind] = vsc_cell_rule_of((vsc_cell)kind);
   vsc_status status = VSC_OK;
   if (VSC_NEW(cut.order, parts->count) && VSC_NEW(cut.place, parts->count + 1) &&
-      VSC_NEW(cut.nodes, parts->start[parts->count]) && VSC_NEW(cut.seen, mesh->node_count) &&
-      VSC_NEW(cut.patches_of, mesh->node_count) && VSC_NEW(cut.number, mesh->node_count) &&
-      VSC_NEW(cut.local, mesh->node_count))
+      VSC_NEW(cut.nodes, parts->start[parts->count]) && VSC_NEW(cut.source, parts->count) &&
+      VSC_NEW(cut.seen, mesh->node_count) && VSC_NEW(cut.patches_of, mesh->node_count) &&
+      VSC_NEW(cut.number, mesh->node_count) && VSC_NEW(cut.local, mesh->node_count))
     status = cut_and_fill(&cut, axes, model, error);
   else
     status = vsc_fail_memory(error, "the order of the elements");
   vsc_free(cut.order);
   vsc_free(cut.place);
   vsc_free(cut.nodes);
+  vsc_free(cut.source);
   vsc_free(cut.first_part);
   vsc_free(cut.seen);
   vsc_free(cut.patches_of);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model/smoothing.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/sort.h"
 #include "base/vec3.h"
 #include "mesh/axes.h"
 #include "model/terms.h"
@@ -27,16 +27,6 @@ void vsc_smoothing_free(vsc_smoothing *smoothing)
   *smoothing = (vsc_smoothing){0};
 }
 
-static int compare_incidences(const void *a, const void *b)
-{
-  const incidence *x = a, *y = b;
-  const uint32_t one[4] = {x->material, x->low, x->high, x->slot};
-  const uint32_t two[4] = {y->material, y->low, y->high, y->slot};
-  for (int i = 0; i < 4; i++)
-    if (one[i] != two[i]) return one[i] < two[i] ? -1 : 1;
-  return 0;
-}
-
 static bool same_edge(const incidence *a, const incidence *b)
 {
   return a->material == b->material && a->low == b->low && a->high == b->high;
@@ -55,7 +45,7 @@ static double volume_of(const vsc_model *model, const incidence *tet)
   return vsc_pack_frames(model, patch, tet->slot / VSC_WIDTH)->V[tet->slot % VSC_WIDTH];
 }
 
-// The edges of all smoothed tets, in order; with `list` NULL only their number.
+// The edges of all smoothed tets, by slot; with `list` NULL only their number.
 static size_t list_incidences(const vsc_model *model, incidence *list)
 {
   size_t count = 0;
@@ -76,7 +66,6 @@ static size_t list_incidences(const vsc_model *model, incidence *list)
         }
       }
   }
-  if (list != NULL) qsort(list, count, sizeof *list, compare_incidences);
   return count;
 }
 
@@ -203,8 +192,10 @@ vsc_status vsc_terms_smoothing(vsc_model *model, vsc_error *error)
   bool good = VSC_NEW(list, count) && VSC_NEW(first, count + VSC_WIDTH * model->material_count);
   if (good) {
     list_incidences(model, list);
-    good = fill_smoothing(model, list, count, first, list_edges(list, count, first, &model->smoothing));
+    good = vsc_sort(list, count, sizeof *list / sizeof(uint32_t), 3);
   }
+  if (good)
+    good = fill_smoothing(model, list, count, first, list_edges(list, count, first, &model->smoothing));
   vsc_free(list);
   vsc_free(first);
   return good ? VSC_OK : vsc_fail_memory(error, "the edges of smoothed tets");

@@ -16,10 +16,6 @@
 #include "model/small_strain.h"
 #include "solve/explicit.h"
 
-static const char *const source_names[] = {"none",       "map",        "arrays",   "constant",
-                                           "helix",      "horizontal", "diagonal", "hemicircular",
-                                           "helicoidal", "random", "ellipsoid"};
-
 static void say_mesh(const vsc_problem *problem, FILE *out)
 {
   const vsc_mesh *mesh = problem->mesh;
@@ -127,7 +123,7 @@ static void say_fibers(const vsc_problem *problem, FILE *out)
   fprintf(
       out,
       "fibres     %s%s%s: %zu of %zu elements (%.1f %%), %zu filled from neighbours, %zu passive\n",
-      source_names[def->source], def->source == VSC_FIBER_MAP ? " " : "",
+      vsc_fiber_source_name(def->source), def->source == VSC_FIBER_MAP ? " " : "",
       def->source == VSC_FIBER_MAP ? def->map.file : "", f->with_data, f->elements,
       100.0 * (double)f->with_data / (double)f->elements, f->filled, f->passive);
   if (def->source == VSC_FIBER_NONE) return;

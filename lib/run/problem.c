@@ -81,11 +81,13 @@ static vsc_status shape_mesh(vsc_problem *problem, const char *file, vsc_error *
 
 static vsc_status make_fibers(vsc_problem *problem, vsc_error *error)
 {
-  named_surfaces surfaces;
-  vsc_status status = select_surfaces(problem, &surfaces, error);
+  named_surfaces surfaces = {0};
+  vsc_status status = VSC_OK;
+  const vsc_fiber_def *fibers = &problem->scene->fibers;
+  if (vsc_fiber_needs_surfaces(fibers)) status = select_surfaces(problem, &surfaces, error);
   if (status == VSC_OK)
-    status = vsc_fibers_make(problem->mesh, &problem->scene->fibers, surfaces.items, surfaces.count,
-                             &problem->axes, &problem->fibers, error);
+    status = vsc_fibers_make(problem->mesh, fibers, surfaces.items, surfaces.count, &problem->axes,
+                             &problem->fibers, error);
   free_surfaces(&surfaces);
   return status;
 }

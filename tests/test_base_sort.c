@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Records are sorted by their keys, and those with equal keys stay in their order.
+#include "base/sort.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "close.h"
+
+enum { MOST_WORDS = 4 };
+
+// `keys` random words, the last of few values, and a number that tells the records' order.
+static void fill(uint32_t *records, size_t count, size_t words, size_t keys)
+{
+  static const uint32_t masks[3] = {0xffffffffu, 0x00300000u, 3};
+  uint64_t seed = 1;
+  for (size_t k = 0; k < count; k++)
+    for (size_t w = 0; w < words; w++) {
+      seed = seed * UINT64_C(6364136223846793005) + 1442695040888963407u;
+      records[words * k + w] = w < keys ? (uint32_t)(seed >> 32) & masks[(k + w) % 3] : (uint32_t)k;
+    }
+}
+
+static void check(size_t count, size_t words, size_t keys)
+{
+  uint32_t *records, *seen;
+  assert_true(VSC_NEW(records, words * count + 1) && VSC_NEW(seen, count));
+  fill(records, count, words, keys);
+  records[words * count] = 12345;  // nothing behind the last is touched
+  assert_true(vsc_sort(records, count, words, keys));
+  assert_int_equal(records[words * count], 12345);
+  for (size_t k = 0; k < count; k++) {
+    const uint32_t *record = records + words * k;
+    assert_true(record[keys] < count);
+    assert_int_equal(seen[record[keys]]++, 0);
+    for (size_t w = keys; w < words; w++) assert_int_equal(record[w], record[keys]);
+    if (k == 0) continue;
+    size_t w = 0;
+    while (w < keys && record[w] == record[w - words]) w++;
+    assert_true(record[w] > record[w - words]);  // where all keys are equal: the order
+  }
+  vsc_free(records);
+  vsc_free(seen);
+}
+
+static void records_are_sorted_by_their_keys(void **state)
+{
+  (void)state;
+  for (size_t words = 2; words <= MOST_WORDS; words++)
+    for (size_t keys = 1; keys < words; keys++)
+      for (size_t count = 0; count < 5000; count = 3 * count + 1) check(count, words, keys);
+}
+
+static void short_memory_leaves_them_alone(void **state)
+{
+  (void)state;
+  uint32_t records[4] = {3, 0, 1, 1};
+  const uint32_t before[4] = {3, 0, 1, 1};
+  vsc_alloc_fail_after(0);
+  assert_false(vsc_sort(records, 2, 2, 1));
+  vsc_alloc_fail_after(-1);
+  assert_memory_equal(records, before, sizeof before);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(records_are_sorted_by_their_keys),
+      cmocka_unit_test(short_memory_leaves_them_alone),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
