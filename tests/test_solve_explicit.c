@@ -422,7 +422,7 @@ static void test_step_that_becomes_unstable(void **state)
   body_close(&body);
 }
 
-// Steps are cut so that each stop is met to the bit, and the estimate follows at least every 64 steps where those take more
+// Steps are cut so that each stop is met to the bit, and the estimate follows at least every 128 steps where those take more
 // than 4 ms.
 static void test_advance_meets_its_stops(void **state)
 {
@@ -439,8 +439,8 @@ static void test_advance_meets_its_stops(void **state)
   }
   assert_int_equal(vsc_advance(body.model, body.state, 3, NULL), VSC_OK);  // the past is done
   assert_true(body.state->time == 600);
-  assert_true(64 * body.state->limit.first > 4);
-  assert_true(body.state->limit.refreshes >= 1 + body.state->steps / 64);
+  assert_true(128 * body.state->limit.first > 4);
+  assert_true(body.state->limit.refreshes >= 1 + body.state->steps / 128);
   body_close(&body);
 }
 
