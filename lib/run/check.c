@@ -7,6 +7,7 @@
 #include "base/mem.h"
 #include "base/parallel.h"
 #include "base/vec3.h"
+#include "mech/prony.h"
 #include "mech/kernel.h"
 #include "mech/step_limit.h"
 #include "mech/tangent.h"
@@ -362,9 +363,11 @@ static double memory_bytes(const vsc_model *model)
 {
   const double per_element =
       4 + 1 + (model->amplitude ? 8 : 0) + (model->delay ? 8 : 0) + 16 + 72 + 1;
-  const double per_node = (32 + 8 + 32 + 16 + 4) + 32 * (5 + 3 + 3 + 1) + 8;
+  const double loads = model->pressure_count + model->robin_count > 0 ? 32 : 0;
+  const double contact = model->obstacle_count > 0 ? 3 * 32 + 1 : 0;
+  const double per_node = (32 + 8 + 32 + 16 + 4) + 32 * (5 + 3 + 3 + 1) + 8 + loads + contact;
   return (double)model->store_size + per_element * (double)model->element_count +
-         per_node * (double)model->node_count;
+         per_node * (double)model->node_count + (double)(vsc_prony_size(model) * sizeof(double));
 }
 
 static vsc_status say_cost(const vsc_problem *problem, vsc_state *state, FILE *out,

@@ -288,16 +288,25 @@ static void resolve(const vsc_curve *curve, double *look)
   if (curve->period > 0) *look = fmin(*look, curve->period / LOOKS_PER_PERIOD);
 }
 
-// The way between two looks of the ledger, ms, before it is fitted to the rows of signals; looks cost as much as some
-// steps.
-static double usual_look(const vsc_model *model, const vsc_state *state)
+// The longest way between two looks of the ledger, ms.
+static double longest_look(const vsc_model *model)
 {
-  double look = fmax(USUAL_LOOK, STEPS_OF_LOOK * state->limit.first);
+  double look = HUGE_VAL;
   for (size_t m = 0; m < model->material_count; m++)
     if (model->materials[m].active != VSC_ACTIVE_NONE) resolve(&model->materials[m].curve, &look);
   for (size_t p = 0; p < model->pressure_count; p++) resolve(&model->pressures[p].curve, &look);
   for (size_t s = 0; s < model->moved_count; s++) resolve(&model->moved[s].curve, &look);
   return look;
+}
+
+// The way between two looks, ms: a whole part of that between two rows of signals, not longer than the longest and about
+// the usual one; looks cost as much as some steps.
+static double look_of(const vsc_model *model, const vsc_state *state, double rows)
+{
+  if (model->solve.kind != VSC_SOLVE_EXPLICIT) return rows;
+  const double step = model->step > 0 ? model->step : state->limit.first;
+  const double usual = fmax(USUAL_LOOK, STEPS_OF_LOOK * step);
+  return rows / fmax(fmax(round(rows / usual), ceil(rows / longest_look(model))), 1);
 }
 
 // Goes on to the first look at or after `stop`: looks, and with them the steps, are where they
@@ -309,9 +318,7 @@ static vsc_status advance(vsc_job *job, double stop, vsc_error *error)
   vsc_state *state = job->state;
   vsc_status status = VSC_OK;
   // the ledger wants its looks, however rare the rows are
-  const bool motion = job->problem->model->solve.kind == VSC_SOLVE_EXPLICIT;
-  const double look =
-      output->signal_interval / (motion ? fmax(round(output->signal_interval / usual_look(job->problem->model, state)), 1) : 1);
+  const double look = look_of(job->problem->model, state, output->signal_interval);
   while (state->time < stop * (1 - SAME_TIME) && status == VSC_OK && !repeats(job)) {
     const double before = state->time;
     double next = next_event(before, look, end);

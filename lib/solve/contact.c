@@ -9,6 +9,8 @@
 enum { MOST_ROUNDS = 8 };
 // Parts of an element's size: below this a depth is rounding; as near as that a node is to all obstacles that it touches.
 static const double ROUNDING = 1e-13, NEAR = 1e-3;
+// Part of the normal, in directions that are not held, below which a node is held against the obstacle.
+static const double LEAST_FREE = 1e-6;
 
 // An obstacle at the end of a step.
 typedef struct pusher {
@@ -73,18 +75,82 @@ static void count_impulse(const vsc_model *model, vsc_state *state, uint32_t nod
   }
 }
 
+// In directions in which a support holds the node still the support bears what an obstacle that pushes with `size` along
+// what is free of `normal`, a part `free` of it, pushes there.
+static void load_held(const vsc_model *model, vsc_state *state, uint32_t node, double size, const double normal[3],
+                      double free, const pusher *p)
+{
+  for (int i = 0; i < 3; i++) {
+    const size_t place = 4 * (size_t)node + (size_t)i;
+    if (model->inverse_mass[place] == 0 && state->v[place] == 0) load(state, node, i, size * normal[i] / free, p);
+  }
+}
+
+// Into `way` what is free of the normal along which the obstacle pushes the node, itself into `normal`, and how far it
+// has to go for its gap, below 0, to close; returns the length of the free part, 0 for a node that is held against the
+// obstacle. A sphere pushes along the normal where the step has begun: two steps that end on it have moved the node across
+// that (SHAKE), so that sliding round it makes no energy. With the way y from its centre and radius r,
+//   |y + depth way| = r.
+static double find_way(const vsc_model *model, uint32_t node, double dt, const pusher *p, const double *x,
+                       const double *v, double gap, double normal[3], double way[3], double *depth)
+{
+  const double *inverse_mass = model->inverse_mass + 4 * (size_t)node;
+  double free = free_part(inverse_mass, normal, way);
+  if (free < LEAST_FREE) return 0;
+  if (p->obstacle->kind == VSC_OBSTACLE_PLANE) {
+    *depth = -gap / vsc_dot(way, normal);
+    return free;
+  }
+  double start[3], former[3], first[3], y[3];
+  for (int i = 0; i < 3; i++) {
+    start[i] = x[i] - dt * v[i];
+    former[i] = p->point[i] - dt * p->speed[i];
+  }
+  vsc_obstacle_gap(p->obstacle, former, start, first);
+  // unless the node has gone far round it
+  if (vsc_dot(first, normal) > 0.5) {
+    memcpy(normal, first, sizeof first);
+    free = free_part(inverse_mass, normal, way);
+  }
+  vsc_subtract(x, p->point, y);
+  const double along = vsc_dot(way, y), left = -gap * (2 * p->obstacle->radius + gap);
+  *depth = left / (along + sqrt(along * along + left));
+  return free;
+}
+
+// Damping sees the velocity at the end of the step, where the obstacle still stops the node.
+static void stop_predicted(const vsc_model *model, vsc_state *state, uint32_t node, const pusher *p,
+                           const double before[3], bool stuck)
+{
+  double *predicted = state->scratch.predicted + 4 * (size_t)node, normal[3], way[3];
+  const double *v = state->v + 4 * (size_t)node;
+  vsc_obstacle_gap(p->obstacle, p->point, state->x + 4 * (size_t)node, normal);
+  free_part(model->inverse_mass + 4 * (size_t)node, normal, way);
+  for (int i = 0; i < 3; i++) predicted[i] += v[i] - before[i];
+  stop(p, way, predicted);
+  if (stuck) rub(model, node, p, way, INFINITY, predicted);
+}
+
+static void mark(const vsc_model *model, vsc_state *state, uint32_t node, const pusher *p, const double way[3])
+{
+  double *kept = state->contact_normal + 4 * (size_t)node;
+  const double number = (double)(p->obstacle - model->obstacles);
+  uint8_t *touch = &state->contact_count[node];
+  *touch = *touch != VSC_APART && (kept[3] != number || *touch == VSC_TOUCHES_SEVERAL) ? VSC_TOUCHES_SEVERAL : VSC_TOUCHES;
+  memcpy(kept, way, 3 * sizeof *kept);
+  kept[3] = number;
+}
+
 static bool put_back(const vsc_model *model, vsc_state *state, uint32_t node, double dt,
                      const pusher *p)
 {
   double *x = state->x + 4 * (size_t)node, *v = state->v + 4 * (size_t)node;
-  double normal[3], way[3], before[3];
+  double normal[3], way[3], before[3], depth;
   const double gap = vsc_obstacle_gap(p->obstacle, p->point, x, normal);
   if (gap >= -ROUNDING * (model->element_size + vsc_norm(x))) return false;
-  const double free = free_part(model->inverse_mass + 4 * (size_t)node, normal, way);
-  if (free < 1e-6) return false;  // held against the obstacle
+  const double free = find_way(model, node, dt, p, x, v, gap, normal, way, &depth);
+  if (free < LEAST_FREE) return false;  // held against the obstacle
   memcpy(before, v, sizeof before);
-  // along what is free of the normal, far enough that the gap closes
-  const double depth = -gap / vsc_dot(way, normal);
   for (int i = 0; i < 3; i++) {
     x[i] += depth * way[i];
     v[i] += depth / dt * way[i];
@@ -99,20 +165,10 @@ static bool put_back(const vsc_model *model, vsc_state *state, uint32_t node, do
       v[i] = rubbed[i];
     }
   }
-  if (model->terms.damping) {
-    // damping sees the velocity at the end of the step, where the obstacle still stops the node
-    double *predicted = state->scratch.predicted + 4 * (size_t)node;
-    for (int i = 0; i < 3; i++) predicted[i] += v[i] - before[i];
-    stop(p, way, predicted);
-    if (stuck) rub(model, node, p, way, INFINITY, predicted);
-  }
+  if (model->terms.damping) stop_predicted(model, state, node, p, before, stuck);
   count_impulse(model, state, node, before, v, p);
-  double *kept = state->contact_normal + 4 * (size_t)node;
-  const double number = (double)(p->obstacle - model->obstacles);
-  uint8_t *touch = &state->contact_count[node];
-  *touch = *touch != VSC_APART && (kept[3] != number || *touch == VSC_TOUCHES_SEVERAL) ? VSC_TOUCHES_SEVERAL : VSC_TOUCHES;
-  memcpy(kept, way, sizeof way);
-  kept[3] = number;
+  load_held(model, state, node, model->mass[node] * depth / dt, normal, free, p);
+  mark(model, state, node, p, way);
   return true;
 }
 
@@ -181,14 +237,18 @@ static bool settle(const vsc_model *model, vsc_state *state, uint32_t node, doub
   double *v = state->v + 4 * (size_t)node, normal[3], way[3], before[3];
   const double gap = vsc_obstacle_gap(p->obstacle, p->point, state->x + 4 * (size_t)node, normal);
   if (!touched(model, state, node, p, gap)) return false;
-  if (free_part(model->inverse_mass + 4 * (size_t)node, normal, way) < 1e-6) return false;
+  const double free = free_part(model->inverse_mass + 4 * (size_t)node, normal, way);
+  if (free < LEAST_FREE) return false;
   memcpy(before, v, sizeof before);
   const double inward = stop(p, way, v), rounding = ROUNDING * model->element_size / dt;
   const bool stops = inward > rounding;
   if (stops && p->obstacle->friction > 0) rub(model, node, p, way, p->obstacle->friction * inward, v);
   count_impulse(model, state, node, before, v, p);
+  if (inward > 0) load_held(model, state, node, model->mass[node] * inward, normal, free, p);
   uint8_t *touch = &state->contact_count[node];
-  if (*touch != VSC_TOUCHES_SEVERAL && fabs(inward) > rounding) *touch = stops ? VSC_TOUCHES : VSC_LEAVES;
+  if (*touch == VSC_TOUCHES_SEVERAL) return stops;
+  memcpy(state->contact_normal + 4 * (size_t)node, way, sizeof way);
+  if (fabs(inward) > rounding) *touch = stops ? VSC_TOUCHES : VSC_LEAVES;
   return stops;
 }
 

@@ -6,13 +6,14 @@
 #include "mech/state.h"
 
 // To be called when the positions have drifted to state->time in a step of dt (ms) and velocities are
-// those of its middle. Each node inside an obstacle is put back onto its surface along the normal,
+// those of its middle. Each node inside an obstacle is put back onto its surface along the normal, of a sphere that
+// where the step has begun (lib/solve/contact.c: no energy of sliding round it),
 //   x <- x + d n,  v <- v + (d/dt) n,
 // so that it loses of its normal velocity just what would take it inside; then its velocity along the
 // surface, seen from the obstacle, is shortened by friction . d/dt at most and to nothing at least,
 //   v_t <- v_t max(0, 1 - friction d / (dt |v_t|)),  x follows.
 // That is the impulse form of Coulomb's law: tangential impulse <= friction x normal impulse. Held
-// directions do not move. Between several obstacles it goes round until no node is inside any, or 8
+// directions do not move: a support that stands still bears what is pushed there. Between several obstacles it goes round until no node is inside any, or 8
 // times. Impulses go to the state's contact sums.
 //
 // state->contact_count (node_count) says whether a node touches no, one or several obstacles

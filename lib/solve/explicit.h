@@ -22,7 +22,7 @@ vsc_status vsc_steps(const vsc_model *model, vsc_state *state, double dt, double
                      vsc_error *error);
 
 // Steps from state->time to `until` (ms) in equal steps not longer than the stable one, which is
-// re-estimated at least every 4 ms or 64 steps; with a step given by the user, in steps of just that length to
+// re-estimated at least every 4 ms or 128 steps; with a step given by the user, in steps of just that length to
 // the first of its multiples that is not before `until`. VSC_NUMERICAL when a position or velocity is no longer
 // finite or a user's step has become unstable: the message names node, place and time.
 vsc_status vsc_advance(const vsc_model *model, vsc_state *state, double until, vsc_error *error);

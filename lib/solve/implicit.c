@@ -102,6 +102,7 @@ vsc_status vsc_implicit_start(const vsc_model *model, vsc_state *state, vsc_erro
   state->release_solver = release;
   state->limit.step = model->step > 0 ? model->step : fmin(FIRST_STEP, model->end_time);
   vsc_supports_place(model, state->time, 1, state->x);
+  vsc_moving_begin_rates(model, state, state->limit.step);
   if (model->branch_count > 0) vsc_prony_step(model, state, 0);
   status = first_acceleration(model, state, s->newton, error);
   if (status == VSC_OK && model->moved_count > 0) {

@@ -13,8 +13,8 @@
 // To be called when the positions have drifted in a step of dt (ms), after contact: finds multipliers
 // lambda so that with the gradients g_k of the volumes at the step's start, x_0 = x - dt v,
 //   x <- x + sum_k lambda_k M^-1 g_k(x_0),  v <- v + the same / dt,  v_k(x) = V_k for all k,
-// by Newton's iteration with the matrix g M^-1 g^T (CHOLMOD), which is factorised anew in the first step of a row or
-// when it converges slowly. The velocity predicted for the step's end, where half a step more of these forces has
+// by Newton's iteration with the matrix g M^-1 g^T (CHOLMOD), which is factorised anew in the first step of a row,
+// when it converges slowly, and with obstacles each time, since contact changes what can move. The velocity predicted for the step's end, where half a step more of these forces has
 // acted, gets one and a half times as much; in the `first` step, in which they have moved nodes for half a step only,
 // twice as much. Nodes in contact do not move along the contact's normal, those in contact
 // with several obstacles not at all. lambda_k/dt^2 is a pressure (kPa, added to state->kept_pressure).

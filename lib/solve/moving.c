@@ -36,6 +36,15 @@ void vsc_moving_start(const vsc_model *model, vsc_state *state)
   }
 }
 
+void vsc_moving_begin_rates(const vsc_model *model, vsc_state *state, double dt)
+{
+  for (size_t s = 0; s < model->moved_count; s++) {
+    const vsc_curve *curve = &model->moved[s].curve;
+    const double now = vsc_curve_value(curve, state->time);
+    give_rate(&model->moved[s], (vsc_curve_value(curve, state->time + dt) - now) / dt, state->v);
+  }
+}
+
 void vsc_moving_begin_loaded(const vsc_model *model, vsc_state *state)
 {
   if (model->moved_count == 0) return;

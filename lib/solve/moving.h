@@ -16,6 +16,10 @@ void vsc_moving_start(const vsc_model *model, vsc_state *state);
 // The same for equilibria that begin under load: the forces are those at the state's positions and time.
 void vsc_moving_begin_loaded(const vsc_model *model, vsc_state *state);
 
+// For methods that take velocities at the start from the state: nodes move as fast there as on the mean of a step of dt
+// (ms), so that those of the trapezoidal rule do not swing about it for ever.
+void vsc_moving_begin_rates(const vsc_model *model, vsc_state *state, double dt);
+
 // To be called when the positions have drifted to state->time in a step of dt (ms): puts the nodes to
 // rest + motion . c(t) and gives them the velocity of the middle of the step that takes them there,
 //   v = motion . (c(t) - c(t - dt)) / dt,

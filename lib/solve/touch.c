@@ -40,7 +40,7 @@ static void find_push(const vsc_touch *touch, const vsc_obstacle *obstacle, cons
   c->bend = 0;
   if (obstacle->kind == VSC_OBSTACLE_PLANE) return;
   c->bend = 1 / (obstacle->radius + c->gap);
-  if (touch->start == NULL) return;
+  if (!touch->step) return;
   double point[3], normal[3];
   vsc_obstacle_place(obstacle, touch->former, point);
   const double *start = touch->start + 4 * (size_t)c->node;
@@ -81,7 +81,7 @@ vsc_status vsc_touch_create(const vsc_model *model, double size, vsc_touch **tou
   *touch = NULL;
   if (count == 0) return VSC_OK;
   if (!VSC_NEW(made, 1) || !VSC_NEW(made->stiffness, model->node_count) || !VSC_NEW(made->multiplier, count) ||
-      !VSC_NEW(made->force, count)) {
+      !VSC_NEW(made->force, count) || !VSC_NEW(made->start, 4 * model->node_count)) {
     vsc_touch_free(made);
     return vsc_fail_memory(error, "contact");
   }
@@ -98,6 +98,7 @@ void vsc_touch_free(vsc_touch *touch)
   vsc_free(touch->stiffness);
   vsc_free(touch->multiplier);
   vsc_free(touch->force);
+  vsc_free(touch->start);
   vsc_free(touch);
 }
 
@@ -112,8 +113,9 @@ void vsc_touch_begin(vsc_touch *touch, const vsc_state *state, double time, bool
   touch->raise = 1;
   touch->off = INFINITY;
   touch->from = state->x;
-  touch->start = step ? state->x : NULL;
+  touch->step = step;
   touch->former = state->time;
+  memcpy(touch->start, state->x, 4 * touch->model->node_count * sizeof *touch->start);
 }
 
 // ---- one balance

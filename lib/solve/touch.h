@@ -15,7 +15,7 @@
 //
 // Implicit steps (not BDF2, from whose past an impact would come back): obstacles act on x_1, so that it is outside of
 // them, as the impulse dt F over the step, which moves it by dt^2 F/(2 M); velocities get it, accelerations never have
-// it (Kane, Repetto, Ortiz & Marsden 1999). With R = t n beside the forces f of solve/implicit.h that is
+// it (Kane, Repetto, Ortiz & Marsden 1999). With R = t d beside the forces f of solve/implicit.h that is
 //   M [(1 - m) (A x_1 + h_a) + m a_0] = f + R,  a_1 = A x_1 + h_a - R/((1 - m) M),  F = 2 beta R/(1 - m),
 //   v_1 = V x_1 + h_v + dt (2 beta - gamma) R/((1 - m) M),
 // and viscosity sees V x_1 + h_v without what h_v has of the part of a_0 that obstacles stop. Then a node that is
@@ -44,7 +44,8 @@ typedef struct vsc_touch {
   double size;         // of the body, mm
   double off;          // largest |g| of the round before, mm
   const double *from;  // node_count x 4: what a first iterate is seen from; NULL in later rounds
-  const double *start; // node_count x 4: where an implicit step began; NULL in equilibria
+  bool step;           // whether this is an implicit step or an increment of an equilibrium
+  double *start;       // node_count x 4: where it began; owned
   double former;       // when that was, ms
 } vsc_touch;
 
@@ -61,7 +62,7 @@ void vsc_touch_free(vsc_touch *touch);  // NULL is fine
 void vsc_touch_begin(vsc_touch *touch, const vsc_state *state, double time, bool step, double stiffness_factor,
                      double mass_factor);
 
-// Adds t n to r (node_count x 4, mN) at x (node_count x 4), found from the iterate `before` (likewise; NULL: none).
+// Adds t n, in steps t d, to r (node_count x 4, mN) at x (node_count x 4), found from the iterate `before` (likewise; NULL: none).
 // Nodes are pushed that are so as seen from there, l - k (g_b + n_b . (x - x_b)) > 0, with t = l - k g that may be
 // below 0 on the way: a node that a step along its tangent has put a little off a sphere is not let go.
 void vsc_touch_push(vsc_touch *touch, const double *x, const double *before, double *r);
@@ -96,13 +97,13 @@ void vsc_touch_put_out(vsc_touch *touch, double *x);
 // was accepted, and 0.
 void vsc_touch_part(const vsc_touch *touch, vsc_state *state, const double *vector, double *part);
 
-// Adds factor R/M of nodes that are touched at x to `vector` (node_count x 4).
+// Adds factor R/M, R = t d, of nodes that are touched at x to `vector` (node_count x 4).
 void vsc_touch_kick(const vsc_touch *touch, const double *x, double factor, double *vector);
 
 // Takes from `vector` (node_count x 4) what is along n of nodes that are touched at x.
 void vsc_touch_strike(const vsc_touch *touch, const double *x, double *vector);
 
-// To be called before the positions x of a step of dt (ms) are accepted: adds what obstacles do with F = push t n,
+// To be called before the positions x of a step of dt (ms) are accepted: adds what obstacles do with F = push t d,
 //   impulse dt F,  work F . (p - p_0),  of which F . ((p - p_0) - (x - x_0)) is lost.
 void vsc_touch_reckon_step(const vsc_touch *touch, vsc_state *state, const double *x, double dt, double push);
 
@@ -111,7 +112,7 @@ void vsc_touch_reckon_step(const vsc_touch *touch, vsc_state *state, const doubl
 // the multipliers in the state.
 void vsc_touch_stop(const vsc_touch *touch, vsc_state *state, double dt);
 
-// Adds push t n to `force` (node_count x 4, mN) at x.
+// Adds push t d to `force` (node_count x 4, mN) at x.
 void vsc_touch_add(const vsc_touch *touch, const double *x, double push, double *force);
 
 #endif
