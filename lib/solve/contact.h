@@ -13,8 +13,8 @@
 // surface, seen from the obstacle, is shortened by friction . d/dt at most and to nothing at least,
 //   v_t <- v_t max(0, 1 - friction d / (dt |v_t|)),  x follows.
 // That is the impulse form of Coulomb's law: tangential impulse <= friction x normal impulse. Held
-// directions do not move: a support that stands still bears what is pushed there. Between several obstacles it goes round until no node is inside any, or 8
-// times. Impulses go to the state's contact sums.
+// directions do not move: a support that stands still bears what is pushed there. Between several obstacles it goes
+// round until no node is inside any, or 8 times. Impulses go to the state's contact sums.
 //
 // state->contact_count (node_count) says whether a node touches no, one or several obstacles
 // in this step, and state->contact_normal (node_count x 4) holds the normal of the last and its

@@ -14,11 +14,11 @@
 // lambda so that with the gradients g_k of the volumes at the step's start, x_0 = x - dt v,
 //   x <- x + sum_k lambda_k M^-1 g_k(x_0),  v <- v + the same / dt,  v_k(x) = V_k for all k,
 // by Newton's iteration with the matrix g M^-1 g^T (CHOLMOD), which is factorised anew in the first step of a row,
-// when it converges slowly, and with obstacles each time, since contact changes what can move. The velocity predicted for the step's end, where half a step more of these forces has
-// acted, gets one and a half times as much; in the `first` step, in which they have moved nodes for half a step only,
-// twice as much. Nodes in contact do not move along the contact's normal, those in contact
-// with several obstacles not at all. lambda_k/dt^2 is a pressure (kPa, added to state->kept_pressure).
-// VSC_NUMERICAL when the volumes cannot be kept.
+// when it converges slowly, and with obstacles each time, since contact changes what can move. The velocity predicted
+// for the step's end, where half a step more of these forces has acted, gets one and a half times as much; in the
+// `first` step, in which they have moved nodes for half a step only, twice as much. Nodes in contact do not move
+// along the contact's normal, those in contact with several obstacles not at all. lambda_k/dt^2 is a pressure (kPa,
+// added to state->kept_pressure). VSC_NUMERICAL when the volumes cannot be kept.
 vsc_status vsc_keep_volume(const vsc_model *model, vsc_state *state, double dt, bool first,
                            vsc_error *error);
 

@@ -21,12 +21,12 @@
 // and viscosity sees V x_1 + h_v without what h_v has of the part of a_0 that obstacles stop. Then a node that is
 // touched gets its obstacle's velocity along n, so that none bounces by itself, and none that rests swings with the
 // steps. Of the trapezoid's energy F takes F . ((p - p_0) - (x_1 - x_0)) beside what the obstacle's way p - p_0 gives,
-// at a plane never below 0, and the stop takes more: contact makes none. So that it makes none round spheres, along whose n nodes
-// that slide move by d^2/(2 r) in a step, they push along the way that makes up for the gap's change (Simo & Tarnow
-// 1992, Gonzalez 2000): with the way y from the centre to the node,
+// at a plane never below 0, and the stop takes more: contact makes none. So that it makes none round spheres, along
+// whose n nodes that slide move by d^2/(2 r) in a step, they push along the way that makes up for the gap's change
+// (Simo & Tarnow 1992, Gonzalez 2000): with the way y from the centre to the node,
 //   t d,  d = (y_1 + y_0)/(|y_1| + |y_0|),  d . (y_1 - y_0) = g_1 - g_0,
-// whose tangent k d n^T - t (1 - d n^T)/(|y_1| + |y_0|) is taken with d for n. Were R a force as any other at x_1, nodes that
-// rest would swing for ever, and an impact would give back in the next step what it has taken.
+// whose tangent k d n^T - t (1 - d n^T)/(|y_1| + |y_0|) is taken with d for n. Were R a force as any other at x_1,
+// nodes that rest would swing for ever, and an impact would give back in the next step what it has taken.
 #ifndef VSC_SOLVE_TOUCH_H
 #define VSC_SOLVE_TOUCH_H
 
@@ -58,13 +58,14 @@ void vsc_touch_free(vsc_touch *touch);  // NULL is fine
 // All that follows does nothing where `touch` is NULL.
 
 // To be called before a solution: multipliers begin as the state's, obstacles stand where they are at `time`, at the
-// end of an implicit `step` from the state or an increment; the balance has stiffness_factor times the stiffness and mass_factor (1/ms^2) times the masses in its tangent.
+// end of an implicit `step` from the state or an increment; the balance has stiffness_factor times the stiffness and
+// mass_factor (1/ms^2) times the masses in its tangent.
 void vsc_touch_begin(vsc_touch *touch, const vsc_state *state, double time, bool step, double stiffness_factor,
                      double mass_factor);
 
-// Adds t n, in steps t d, to r (node_count x 4, mN) at x (node_count x 4), found from the iterate `before` (likewise; NULL: none).
-// Nodes are pushed that are so as seen from there, l - k (g_b + n_b . (x - x_b)) > 0, with t = l - k g that may be
-// below 0 on the way: a node that a step along its tangent has put a little off a sphere is not let go.
+// Adds t n, in steps t d, to r (node_count x 4, mN) at x (node_count x 4), found from the iterate `before` (likewise;
+// NULL: none). Nodes are pushed that are so as seen from there, l - k (g_b + n_b . (x - x_b)) > 0, with t = l - k g
+// that may be below 0 on the way: a node that a step along its tangent has put a little off a sphere is not let go.
 void vsc_touch_push(vsc_touch *touch, const double *x, const double *before, double *r);
 
 // Adds its tangent at the x of the last vsc_touch_push to that of the balance.
