@@ -23,8 +23,9 @@ typedef struct range {
 
 static struct {
   range ranges[MOST_THREADS];
-  atomic_uint_least32_t call;      // its number; changes when there is work
-  atomic_size_t pieces, done;
+  _Alignas(64) atomic_size_t done; // on a line of its own: what threads look at for each piece is only read in a call
+  _Alignas(64) atomic_uint_least32_t call;  // its number; changes when there is work
+  atomic_size_t pieces;
   atomic_int threads;              // that take part
   _Atomic(vsc_piece *) work;
   _Atomic(void *) context;
@@ -94,27 +95,31 @@ static uint32_t range_end(size_t pieces, int threads, int r)
   return (uint32_t)(pieces * ((size_t)r + 1) / (size_t)threads);
 }
 
-// Does what is left of range `r` of call `call`.
-static void do_range(uint32_t call, int r, int thread)
+// Does what is left of range `r` of call `call`; returns how many pieces that were.
+static size_t do_range(uint32_t call, int r, int thread)
 {
   uint_least64_t next = atomic_load(&pool.ranges[r].next);
-  for (;;) {
+  for (size_t count = 0;;) {
     const size_t pieces = atomic_load(&pool.pieces);
     const uint32_t end = range_end(pieces, atomic_load(&pool.threads), r), piece = (uint32_t)next;
     vsc_piece *work = atomic_load(&pool.work);
     void *context = atomic_load(&pool.context);
-    if ((uint32_t)(next >> 32) != call || piece >= end) return;
+    if ((uint32_t)(next >> 32) != call || piece >= end) return count;
     if (!atomic_compare_exchange_weak(&pool.ranges[r].next, &next, next + 1)) continue;
     work(context, piece, thread);
     next = atomic_load(&pool.ranges[r].next);
-    if (atomic_fetch_add(&pool.done, 1) + 1 == pieces && thread != 0) wake(true);
+    count++;
   }
 }
 
 static void take_part(uint32_t call, int thread)
 {
   const int threads = atomic_load(&pool.threads);
-  for (int k = 0; k < threads; k++) do_range(call, (thread + k) % threads, thread);
+  for (int k = 0; k < threads; k++) {
+    const size_t count = do_range(call, (thread + k) % threads, thread);
+    // the call goes on for as long as these are not counted
+    if (count > 0 && atomic_fetch_add(&pool.done, count) + count == atomic_load(&pool.pieces) && thread != 0) wake(true);
+  }
 }
 
 static void *serve(void *number)

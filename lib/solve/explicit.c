@@ -28,30 +28,23 @@ typedef struct motion {
   bool whole;  // whether the forces are added up already
 } motion;
 
-// Nodes go in pieces, first those before the ones that are still, then those behind them.
-static size_t pieces_before(const vsc_model *model)
-{
-  return (model->still_first + NODES_PER_PIECE - 1) / NODES_PER_PIECE;
-}
-
+// Nodes go in pieces. Each has a slice of the nodes before those that are still, or before those that patches share,
+// and one of those behind, so that who does a thread's part of the patches finds what it has just written.
 static size_t piece_count(const vsc_model *model)
 {
-  const size_t behind = model->node_count - model->still_first - model->still_count;
-  return pieces_before(model) + (behind + NODES_PER_PIECE - 1) / NODES_PER_PIECE;
+  return (model->node_count - model->still_count + NODES_PER_PIECE - 1) / NODES_PER_PIECE;
 }
 
-static size_t piece_first(const vsc_model *model, size_t piece)
-{
-  const size_t before = pieces_before(model);
-  return piece < before ? piece * NODES_PER_PIECE
-                        : model->still_first + model->still_count + (piece - before) * NODES_PER_PIECE;
-}
+typedef struct slice {
+  size_t first, end;
+} slice;
 
-static size_t piece_end(const vsc_model *model, size_t piece)
+static slice slice_of(const vsc_model *model, size_t piece, bool behind)
 {
-  const size_t end = piece_first(model, piece) + NODES_PER_PIECE;
-  const size_t most = piece < pieces_before(model) ? model->still_first : model->node_count;
-  return end < most ? end : most;
+  const size_t pieces = piece_count(model), before = model->still_count > 0 ? model->still_first : model->own_node_count;
+  const size_t first = behind ? before + model->still_count : 0;
+  const size_t count = behind ? model->node_count - first : before;
+  return (slice){first + count * piece / pieces, first + count * (piece + 1) / pieces};
 }
 
 // The three sweeps over the nodes are made of these two.
@@ -82,16 +75,20 @@ static void drift(void *context, size_t piece, int thread)
 {
   (void)thread;
   const motion *m = context;
-  for (size_t n = piece_first(m->model, piece), end = piece_end(m->model, piece); n < end; n++)
-    drift_node(m, n, ((const vsc_wide *)m->state->a)[n]);
+  for (int behind = 0; behind < 2; behind++) {
+    const slice s = slice_of(m->model, piece, behind);
+    for (size_t n = s.first; n < s.end; n++) drift_node(m, n, ((const vsc_wide *)m->state->a)[n]);
+  }
 }
 
 static void kick(void *context, size_t piece, int thread)
 {
   (void)thread;
   const motion *m = context;
-  for (size_t n = piece_first(m->model, piece), end = piece_end(m->model, piece); n < end; n++)
-    ((vsc_wide *)m->state->a)[n] = kick_node(m, n);
+  for (int behind = 0; behind < 2; behind++) {
+    const slice s = slice_of(m->model, piece, behind);
+    for (size_t n = s.first; n < s.end; n++) ((vsc_wide *)m->state->a)[n] = kick_node(m, n);
+  }
 }
 
 // The end of one step and the beginning of the next in one sweep.
@@ -99,8 +96,10 @@ static void kick_and_drift(void *context, size_t piece, int thread)
 {
   (void)thread;
   const motion *m = context;
-  for (size_t n = piece_first(m->model, piece), end = piece_end(m->model, piece); n < end; n++)
-    drift_node(m, n, kick_node(m, n));
+  for (int behind = 0; behind < 2; behind++) {
+    const slice s = slice_of(m->model, piece, behind);
+    for (size_t n = s.first; n < s.end; n++) drift_node(m, n, kick_node(m, n));
+  }
 }
 
 // Puts nodes out of obstacles and volumes back to what they were, in turns, since each may disturb the
