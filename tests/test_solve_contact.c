@@ -240,6 +240,29 @@ static void a_ball_makes_no_energy_of_what_slides_round_it(void **state)
   body_close(&body);
 }
 
+// A slope comes down on nodes that are held along x: it pushes along its normal all the same, and the support bears x.
+static void supports_bear_what_an_obstacle_pushes(void **state)
+{
+  (void)state;
+  small_body body;
+  vsc_obstacle_def slope = plane(0, 0, 4.3, -0.4, 0, -1, 0);
+  slope.motion[2] = -0.5;
+  slope.curve = vsc_default_curve(VSC_CURVE_RAMP);
+  slope.curve.duration = 20;
+  open_block(&body, &slope, 1, 3);
+  body_hold(&body, "z0", 1, 1, 1);
+  body_hold(&body, "z1", 1, 0, 0);
+  body_build(&body);
+  body_start(&body);
+  advance(&body, 40);
+  const vsc_contact_sums *sums = &body.state->contact[0];
+  assert_true(sums->impulse[2] < -1);
+  assert_close(sums->impulse[0], 0.4 * sums->impulse[2], 1e-12, 0);
+  // all of its work goes into the block; measured -0.25 %, without what the support bears a part of it is missing
+  assert_close(sums->lost, 0, 0, 0.01 * sums->work);
+  body_close(&body);
+}
+
 static void held_nodes_stay_and_bad_starts_are_refused(void **state)
 {
   (void)state;
@@ -275,6 +298,7 @@ int main(void)
       cmocka_unit_test(a_corner_holds_on_all_sides),
       cmocka_unit_test(a_sphere_presses),
       cmocka_unit_test(a_ball_makes_no_energy_of_what_slides_round_it),
+      cmocka_unit_test(supports_bear_what_an_obstacle_pushes),
       cmocka_unit_test(held_nodes_stay_and_bad_starts_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -2,6 +2,7 @@
 // Implicit steps: second order, by an explicit solution with fine steps; energy kept or damped as the
 // scheme says; errors that follow the accuracy asked for.
 #include "copy_factor.h"
+#include "positions.h"
 #include "solve/implicit.h"
 #include "solve/solve.h"
 
@@ -25,22 +26,6 @@ static void run_to(small_body *body, double end)
       vsc_solve_to(body->model, body->state, end, &error) != VSC_OK)
     fail_msg("%s", error.text);
   assert_true(body->state->time == end);
-}
-
-static double *positions(const small_body *body)
-{
-  const size_t bytes = 4 * body->model->node_count * sizeof(double);
-  double *x = malloc(bytes);
-  memcpy(x, body->state->x, bytes);
-  return x;
-}
-
-static double distance(const small_body *body, const double *x)
-{
-  double most = 0;
-  for (size_t i = 0; i < 4 * body->model->node_count; i++)
-    most = fmax(most, fabs(body->state->x[i] - x[i]));
-  return most;
 }
 
 static double *explicit_solution(bool damped)

@@ -2,6 +2,7 @@
 // Volumes kept by multipliers: to rounding, without a change of energy or momenta, second order in
 // time, also beside contact.
 #include "kept_body.h"
+#include "pressed_body.h"
 #include "solve/keep_volume.h"
 
 static void sums_of(const small_body *body, double momentum[3], double turning[3])
@@ -167,18 +168,13 @@ static void a_ball_works_on_a_kept_volume(void **state)
     vsc_ledger *ledger;
     vsc_totals t;
     vsc_error error;
-    vsc_obstacle_def ball = vsc_default_obstacle();
-    ball.kind = VSC_OBSTACLE_SPHERE;
-    memcpy(ball.point, (double[]){1.5, 1.5, 4.05}, sizeof ball.point);
-    ball.radius = 2;
-    ball.motion[2] = -0.4;
-    ball.curve = vsc_default_curve(VSC_CURVE_RAMP);
-    ball.curve.duration = 15;
+    vsc_obstacle_def thing = ball(1.5, 1.5, 4.05, 2);
+    move(&thing, -0.4, 15);
     body_open(&body, block_of(6, 6, 4, 0.5, 0.2), 4);
     body.definition.kept_volume = VSC_KEEP_TOTAL;
     for (int a = 0; a < 3; a++) body.material.damping[a] = 5;
     body_hold(&body, "z0", 1, 1, 1);
-    body.definition.obstacles = &ball;
+    body.definition.obstacles = &thing;
     body.definition.obstacle_count = 1;
     body.definition.safety = fine ? 0.2 : 0.8;
     body_build(&body);

@@ -2,6 +2,7 @@
 // Stress that relaxes in implicit steps and in equilibria: closed forms, order in time, explicit steps, energy,
 // bits.
 #include "copy_factor.h"
+#include "positions.h"
 #include "mech/prony.h"
 #include "solve/implicit.h"
 #include "solve/solve.h"
@@ -28,21 +29,6 @@ static void start(small_body *body)
   vsc_error error;
   body_build(body);
   if (vsc_solve_start(body->model, body->state, &error) != VSC_OK) fail_msg("%s", error.text);
-}
-
-static double *positions(const small_body *body)
-{
-  const size_t bytes = 4 * body->model->node_count * sizeof(double);
-  double *x = malloc(bytes);
-  memcpy(x, body->state->x, bytes);
-  return x;
-}
-
-static double distance(const small_body *body, const double *x)
-{
-  double most = 0;
-  for (size_t i = 0; i < 4 * body->model->node_count; i++) most = fmax(most, fabs(body->state->x[i] - x[i]));
-  return most;
 }
 
 // A bar whose first layer of elements is stretched at once and held by all its nodes.

@@ -98,7 +98,7 @@ static const vsc_bench_size walls[] = {
 };
 
 // Most of its programs have quadratic elements with the volume's energy at each point. These take six to twenty-five
-// minutes; case 0B, whose wall snaps through, takes hours of them.
+// minutes; case 0B, whose wall snaps through in steps of half a millisecond, takes much longer.
 static const vsc_bench_size shown_walls[] = {
     {VSC_BENCH_NODAL | VSC_BENCH_POINTS, ""},
 };
