@@ -258,7 +258,7 @@ static void supports_bear_what_an_obstacle_pushes(void **state)
   const vsc_contact_sums *sums = &body.state->contact[0];
   assert_true(sums->impulse[2] < -1);
   assert_close(sums->impulse[0], 0.4 * sums->impulse[2], 1e-12, 0);
-  // all of its work goes into the block; measured -0.25 %, without what the support bears a part of it is missing
+  // all of its work goes into the block; measured -0.25 %
   assert_close(sums->lost, 0, 0, 0.01 * sums->work);
   body_close(&body);
 }
