@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What must not matter: threads and instruction sets (to the bit), the order of nodes and elements
+// What must not matter: threads (to the bit), the order of nodes and elements
 // and the hand of the world (to rounding).
 #include "base/vec3.h"
 #include "close.h"
-#include "mech/kernel_sets.h"
 #include "random_body.h"
 #include "solve/explicit.h"
 
@@ -57,79 +56,6 @@ static void the_number_of_threads_does_not_matter(void **state)
     }
   vsc_parallel_set_threads(1);
 }
-
-#ifdef __x86_64__
-// A patch's work with random positions (tets turned inside out among them) and all inputs.
-static void fill_work(const vsc_model *model, const vsc_patch *patch, uint64_t *seed,
-                      double *memory, vsc_patch_work *work)
-{
-  const size_t nodes = patch->own_count + patch->shared_count;
-  double *x = memory, *w = x + 4 * nodes, *pressure = w + 4 * nodes;
-  double *activation = pressure + (nodes + 3) / 4 * 4;
-  for (size_t n = 0; n < nodes; n++) {
-    const uint32_t node = n < patch->own_count
-                              ? patch->first_node + (uint32_t)n
-                              : model->shared[patch->first_shared + n - patch->own_count];
-    for (int i = 0; i < 3; i++) {
-      x[4 * n + i] = model->rest[4 * (size_t)node + i] + random_between(seed, -0.4, 0.4);
-      w[4 * n + i] = random_between(seed, -1, 1);
-    }
-    pressure[n] = random_between(seed, -50, 50);
-  }
-  for (size_t k = 0; k < 4 * (size_t)patch->pack_count; k++) activation[k] = random_part(seed);
-  *work = (vsc_patch_work){.packs = model->store + patch->packs,
-                           .pack_count = patch->pack_count,
-                           .material = &model->materials[patch->material],
-                           .axes = model->axes,
-                           .pairs = model->pairs,
-                           .x = x,
-                           .w = w,
-                           .pressure = pressure,
-                           .activation = (const vsc_wide *)activation,
-                           .activation_stride = 1};
-}
-
-static void run_sets(vsc_patch_work *work, size_t nodes, vsc_patch_kernel *first,
-                     vsc_patch_kernel *second)
-{
-  double *forces[2];
-  for (int s = 0; s < 2; s++) {
-    forces[s] = numbers(4 * nodes);
-    work->f = work->volume = forces[s];
-    (s ? second : first)(work);
-  }
-  assert_true(largest_of(forces[0], 4 * nodes) > 0);
-  assert_int_equal(memcmp(forces[0], forces[1], 4 * nodes * sizeof(double)), 0);
-  vsc_free(forces[0]);
-  vsc_free(forces[1]);
-}
-
-static void instruction_sets_give_the_same_bits(void **state)
-{
-  (void)state;
-  if (!__builtin_cpu_supports("avx2")) skip();
-  random_body body;
-  random_body_open(&body, 6, VSC_ACTIVE_SPRING, VSC_VOLUME_NODAL, 210);
-  const vsc_model *model = body.model;
-  uint64_t seed = 211;
-  for (size_t p = 0; p < model->patch_count; p++) {
-    const vsc_patch *patch = &model->patches[p];
-    const size_t nodes = patch->own_count + patch->shared_count;
-    double *memory = numbers(9 * nodes + 4 + 4 * (size_t)patch->pack_count);
-    vsc_patch_work work;
-    fill_work(model, patch, &seed, memory, &work);
-    for (int variant = 0; variant < 24; variant++) {
-      const int damping = variant & 1, nodal = variant >> 1 & 1, composed = variant >> 2 & 1;
-      const int active = variant >> 3;
-      run_sets(&work, nodes, vsc_kernels_avx2.tets[composed][damping][active][nodal],
-               vsc_kernels_baseline.tets[composed][damping][active][nodal]);
-    }
-    run_sets(&work, nodes, vsc_kernels_avx2.volume, vsc_kernels_baseline.volume);
-    vsc_free(memory);
-  }
-  body_close(&body);
-}
-#endif
 
 // Where each node and tet of one mesh is in another, and whether the other is its mirror image.
 typedef struct transformation {
@@ -300,9 +226,6 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_number_of_threads_does_not_matter),
-#ifdef __x86_64__
-      cmocka_unit_test(instruction_sets_give_the_same_bits),
-#endif
       cmocka_unit_test(the_order_of_nodes_and_elements_does_not_matter),
       cmocka_unit_test(a_mirror_image_has_mirrored_forces),
       cmocka_unit_test(pressure_follows_its_face),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Exponential and logarithm of four doubles at once, from additions, multiplications and divisions
+// Exponential and logarithm of several doubles at once, from additions, multiplications and divisions
 // alone, so that their bits are the same wherever they are compiled. Errors are below 2e-15 of the
 // value.
 #ifndef VSC_BASE_WIDE_MATH_H
@@ -13,7 +13,7 @@
 // Added to a number below 2^51, it leaves the nearest whole number in the last bits.
 #define VSC_WHOLE 0x1.8p52
 
-typedef uint64_t vsc_wide_bits __attribute__((vector_size(VSC_WIDTH * sizeof(uint64_t))));
+typedef uint64_t vsc_wide_bits __attribute__((vector_size(VSC_LANES * sizeof(uint64_t))));
 
 // 2^n of whole numbers n from -1022 to 1023.
 VSC_INLINE vsc_wide vsc_wide_power_of_two(vsc_wide n)

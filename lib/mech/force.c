@@ -169,7 +169,7 @@ static vsc_patch_work prepare(const evaluation *e, const vsc_patch *patch, const
       .rule = vsc_patch_is_solid(patch) ? &model->rules[patch->family] : NULL,
       .axes = model->axes + material->first_axis,
       .pairs = model->pairs + material->first_pair,
-      .mixtures = patch->mixed ? vsc_pack_mixture(model, patch, patch->first_pack) : NULL,
+      .mixtures = patch->mixed ? (const vsc_four *)vsc_pack_mixture(model, patch, patch->first_pack) : NULL,
       .law_data = patch->law_data ? model->store + patch->law_data : NULL,
       .smoothed = patch->smoothed ? vsc_pack_smoothed(model, patch, patch->first_pack) : NULL,
       .edge_stress = e->scratch->edge_stress,

@@ -11,15 +11,31 @@ static const vsc_kernels *kernels(void)
   return &vsc_kernels_baseline;
 }
 
+#ifdef __x86_64__
+bool vsc_computes_eight(void)
+{
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+}
+#endif
+
+// Eight cells at once where the processor can.
+static const vsc_cell_kernels *cells(void)
+{
+#ifdef __x86_64__
+  if (vsc_computes_eight()) return &vsc_cells_avx512;
+#endif
+  return &kernels()->cells;
+}
+
 static vsc_patch_kernel *cell_kernel(const vsc_kernels *set, const vsc_kernel_choice *c)
 {
   if (c->law == VSC_LAW_CLASSICAL) return NULL;
   if (c->law == VSC_LAW_PAPER)
     return c->family == VSC_TETS ? set->paper_tets[c->damping] : set->paper_hexes[c->damping];
   if (c->smoothed) return set->smoothed[c->nodal_volume];
-  if (c->general) return set->laws[c->damping][c->family];
-  if (c->family == VSC_TETS) return set->tets[c->composed][c->damping][c->active][c->nodal_volume];
-  return set->solids[c->damping][c->family - VSC_HEXES];
+  if (c->general) return cells()->laws[c->damping][c->family];
+  if (c->family == VSC_TETS) return cells()->tets[c->composed][c->damping][c->active][c->nodal_volume];
+  return cells()->solids[c->damping][c->family - VSC_HEXES];
 }
 
 vsc_patch_kernel *vsc_force_kernel(const vsc_kernel_choice *choice)
@@ -39,7 +55,7 @@ vsc_patch_kernel *vsc_force_kernel(const vsc_kernel_choice *choice)
 
 vsc_patch_kernel *vsc_volume_kernel(void)
 {
-  return kernels()->volume;
+  return cells()->volume;
 }
 
 vsc_patch_kernel *vsc_gradient_kernel(void)
@@ -74,5 +90,8 @@ vsc_tangent_kernel *vsc_family_tangent(uint32_t family)
 
 const char *vsc_kernel_set(void)
 {
+#ifdef __x86_64__
+  if (vsc_computes_eight()) return "AVX-512";
+#endif
   return kernels()->name;
 }

@@ -16,21 +16,20 @@ typedef struct vsc_patch_work {
   const vsc_cell_rule *rule;    // of its cells; used by all cells but tets
   const vsc_axis *axes;         // the material's further axes and pairs
   const vsc_pair *pairs;
-  const vsc_mixture *mixtures;  // of each pack; NULL: the material's own moduli
+  const vsc_four *mixtures;     // of each pack, as in vsc_mixture; NULL: the material's own moduli
   const void *law_data;         // law PAPER: vsc_chords or vsc_hex_axes of each pack
   const vsc_smoothed_pack *smoothed;  // smoothed tets: of each pack; else NULL
   const double *edge_stress;    // likewise: P_e of all edges, [edge][column][4], kPa
   const double *x;              // positions, mm
   const double *w;              // velocities, mm/ms; used with damping
   const double *pressure;  // U'(J) of the nodes' volume groups, kPa; used with node-averaged volume
-  const vsc_wide
-      *activation;  // of each pack, or of all when activation_stride is 0; used when active
+  const vsc_four *activation;  // of each pack, or of all when activation_stride is 0; used when active
   size_t activation_stride;
-  const vsc_wide *multipliers;  // of each pack: added to what its frames share, kPa; or NULL
+  const vsc_four *multipliers;  // of each pack: added to what its frames share, kPa; or NULL
   bool shares_volume;  // whether the pressures of nodes count
   double stiffness_factor, damping_factor;  // of -df/dx and of -df/dw, what goes into tangents
   const double *before;  // positions of the iterate before, which foretells stresses; or NULL
-  const vsc_wide (*past)[6];  // tangents of materials with a Prony series: H of each frame of the pack, kPa
+  const vsc_four (*past)[6];  // tangents of materials with a Prony series: H of each frame of the pack, kPa
   double loss;                // likewise: L of S + H - L S_0 (mech/prony.h); `past` is NULL without
   double *f;       // forces, mN: added to
   double *volume;  // quarter volumes, mm^3: added to, by the volume pass
@@ -51,10 +50,10 @@ typedef struct vsc_edge_work {
   const vsc_material *material;
   const vsc_axis *axes;          // the material's further axes and pairs
   const vsc_pair *pairs;
-  const vsc_wide *activation;    // of each pack, or of all when activation_stride is 0
+  const vsc_four *activation;    // of each pack, or of all when activation_stride is 0
   size_t activation_stride;
   double stiffness_factor, damping_factor;  // tangents only, as for patches
-  vsc_wide *tangent;             // of its packs, VSC_EDGE_TANGENT each: blocks (i, j), i >= j, of dP's
+  vsc_four *tangent;             // of its packs, VSC_EDGE_TANGENT each: blocks (i, j), i >= j, of dP's
                                  // columns i by F's columns j, row by row, at 9 (i (i + 1)/2 + j); kPa
   double *stress;                // P_e (or its change) of its edges, [edge][column][4], kPa: written
 } vsc_edge_work;
@@ -65,7 +64,7 @@ typedef void vsc_edge_kernel(const vsc_edge_work *work);
 
 // The matrices of the four elements, triangles or bends of pack k: block (i, j) of corners i >= j, row by row, at
 // K + 9 (i (i + 1)/2 + j); mN/mm. `work->w` is NULL where nothing is damped.
-typedef void vsc_tangent_kernel(const vsc_patch_work *work, size_t k, vsc_wide *K);
+typedef void vsc_tangent_kernel(const vsc_patch_work *work, size_t k, vsc_four *K);
 
 // Which kernel a patch needs.
 typedef struct vsc_kernel_choice {
@@ -100,7 +99,7 @@ vsc_edge_kernel *vsc_edge_product_kernel(void);
 // NULL for springs on edges.
 vsc_tangent_kernel *vsc_family_tangent(uint32_t family);
 
-// The name of the instruction set in use: "AVX2" or "baseline".
+// The name of the instruction set in use: "AVX-512" (of cells; of all else AVX2), "AVX2" or "baseline".
 const char *vsc_kernel_set(void);
 
 #endif

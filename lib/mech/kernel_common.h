@@ -7,21 +7,82 @@
 #include "model/law_springs.h"
 #include "model/law_volume.h"
 
-// One corner of four elements, from node x 4 numbers.
-VSC_INLINE vsc_wide3 gather_corner(const uint16_t node[VSC_WIDTH], const double *nodes)
+// Packs that are computed together: one, or with eight lanes two, side by side. They are given by the
+// first and by how far behind it the other is, in packs: 0 with four lanes, and at an odd end, where the
+// first goes twice and is added once.
+enum { PACKS = VSC_LANES / VSC_WIDTH };
+
+VSC_INLINE size_t other_pack(const vsc_patch_work *work, size_t k)
+{
+  return PACKS > 1 && k + 1 < work->pack_count;
+}
+
+// A number of pack k, and the same of the other pack, `bytes` behind it.
+VSC_INLINE vsc_wide joined(const vsc_four *number, size_t bytes)
+{
+  return vsc_join(*number, *(const vsc_four *)((const char *)number + bytes));
+}
+
+// The nodes of one corner: of pack k, and of the other.
+typedef struct corner_nodes {
+  const uint16_t *of[2];
+} corner_nodes;
+
+VSC_INLINE corner_nodes corner_of(const uint16_t *node, size_t bytes)
+{
+  return (corner_nodes){{node, (const uint16_t *)((const char *)node + bytes)}};
+}
+
+VSC_INLINE vsc_wide node_rows(const double *nodes, const corner_nodes *corner, int l)
+{
+  return vsc_join(*(const vsc_four *)(nodes + 4 * corner->of[0][l]),
+                  *(const vsc_four *)(nodes + 4 * corner->of[1][l]));
+}
+
+// One corner of the elements, from node x 4 numbers.
+VSC_INLINE vsc_wide3 gather_corner(corner_nodes corner, const double *nodes)
 {
   vsc_wide d[VSC_WIDTH];
-  for (int l = 0; l < VSC_WIDTH; l++) d[l] = *(const vsc_wide *)(nodes + 4 * node[l]);
+  for (int l = 0; l < VSC_WIDTH; l++) d[l] = node_rows(nodes, &corner, l);
   vsc_transpose(&d[0], &d[1], &d[2], &d[3]);
   return (vsc_wide3){d[0], d[1], d[2]};
 }
 
-// Adds a force to one corner of four elements.
+// Rows added to the nodes of one corner of a pack, the p-th of those computed together.
+VSC_INLINE void add_rows(const uint16_t node[VSC_WIDTH], const vsc_wide rows[VSC_WIDTH], int p, double *forces)
+{
+  for (int l = 0; l < VSC_WIDTH; l++) *(vsc_four *)(forces + 4 * node[l]) += vsc_part(rows[l], p);
+}
+
+// Adds forces to one corner of the elements of a pack alone.
 VSC_INLINE void scatter_corner(const uint16_t node[VSC_WIDTH], vsc_wide3 force, double *forces)
 {
-  vsc_wide f[VSC_WIDTH] = {force.x, force.y, force.z, vsc_splat(0)};
-  vsc_transpose(&f[0], &f[1], &f[2], &f[3]);
-  for (int l = 0; l < VSC_WIDTH; l++) *(vsc_wide *)(forces + 4 * node[l]) += f[l];
+  vsc_wide rows[VSC_WIDTH];
+  vsc_wide_rows(force, rows);
+  add_rows(node, rows, 0, forces);
+}
+
+// Adds forces to all corners, pack after pack.
+VSC_INLINE void scatter_corners(const uint16_t (*node)[VSC_WIDTH], size_t bytes, int corners,
+                                const vsc_wide3 *force, double *forces)
+{
+  vsc_wide rows[VSC_MOST_CORNERS][VSC_WIDTH];
+  for (int c = 0; c < corners; c++) {
+    vsc_wide_rows(force[c], rows[c]);
+    if (PACKS == 1) add_rows(node[c], rows[c], 0, forces);
+  }
+  for (int p = 0; PACKS > 1 && p < (bytes > 0 ? 2 : 1); p++)
+    for (int c = 0; c < corners; c++) add_rows(corner_of(node[c], bytes).of[p], rows[c], p, forces);
+}
+
+// A number of each node.
+VSC_INLINE vsc_wide node_numbers(const double *numbers, corner_nodes corner)
+{
+  vsc_four of[2];
+  for (int p = 0; p < 2; p++)
+    of[p] = (vsc_four){numbers[corner.of[p][0]], numbers[corner.of[p][1]], numbers[corner.of[p][2]],
+                       numbers[corner.of[p][3]]};
+  return vsc_join(of[0], of[1]);
 }
 
 VSC_INLINE vsc_wide3 wide_zero(void)
@@ -47,13 +108,26 @@ VSC_INLINE vsc_wide cofactor_of(const vsc_wide3 g[3], vsc_wide3 cofactor[3])
 // What is added to the pressure that the frames of a pack share.
 VSC_INLINE vsc_wide multiplier_of(const vsc_patch_work *work, size_t k)
 {
-  return work->multipliers != NULL ? work->multipliers[k] : vsc_splat(0);
+  if (work->multipliers == NULL) return vsc_splat(0);
+  return joined(work->multipliers + k, other_pack(work, k) * sizeof(vsc_four));
+}
+
+VSC_INLINE vsc_wide activation_of(const vsc_patch_work *work, size_t k)
+{
+  const size_t stride = work->activation_stride;
+  return joined(work->activation + k * stride, other_pack(work, k) * stride * sizeof(vsc_four));
 }
 
 VSC_INLINE vsc_mixture moduli_of(const vsc_patch_work *work, size_t k, bool composed)
 {
-  return vsc_moduli_or(work->material,
-                       composed && work->mixtures != NULL ? &work->mixtures[k] : NULL);
+  enum { MODULI = sizeof(vsc_mixture) / sizeof(vsc_wide) };
+  if (!composed || work->mixtures == NULL) return vsc_moduli_or(work->material, NULL);
+  vsc_mixture moduli;
+  vsc_wide *all = (vsc_wide *)&moduli;
+  for (size_t i = 0; i < MODULI; i++)
+    all[i] = joined(work->mixtures + MODULI * k + i,
+                    other_pack(work, k) * MODULI * sizeof(vsc_four));
+  return moduli;
 }
 
 // The springs of a pack at activation a.

@@ -24,7 +24,7 @@ VSC_INLINE vsc_law_input law_input_of(const vsc_patch_work *work, size_t k)
                          .axes = work->axes,
                          .pairs = work->pairs,
                          .moduli = moduli_of(work, k, true),
-                         .activation = work->activation[k * work->activation_stride]};
+                         .activation = activation_of(work, k)};
 }
 
 // The pressure that all frames of four cells share: U' of their mean volume ratio and what a multiplier
@@ -35,8 +35,8 @@ VSC_INLINE vsc_wide common_pressure(const vsc_patch_work *work, size_t k, const 
                                     vsc_wide3 (*g)[3])
 {
   vsc_wide whole;
-  const vsc_wide J = mean_ratio(pack->frames, points, pack->h, g, &whole);
-  if (corners == 4) return nodes_pressure(work, pack->node);
+  const vsc_wide J = mean_ratio(pack, points, pack->h, g, &whole);
+  if (corners == 4) return nodes_pressure(work, pack);
   return vsc_volume_stress(moduli->volume_modulus, J) + multiplier_of(work, k);
 }
 
@@ -63,7 +63,7 @@ VSC_INLINE void law_frame(const vsc_law_input *in, const vsc_wide3 g[3], const v
 VSC_INLINE void cell_kernel(const vsc_patch_work *work, int corners, int points, bool damping,
                             bool general)
 {
-  for (size_t k = 0; k < work->pack_count; k++) {
+  for (size_t k = 0; k < work->pack_count; k += PACKS) {
     opened_pack pack;
     vsc_wide3 f[VSC_MOST_CORNERS], g[VSC_MOST_POINTS][3];
     open_pack(work, k, corners, points, damping, &pack);
@@ -72,16 +72,17 @@ VSC_INLINE void cell_kernel(const vsc_patch_work *work, int corners, int points,
     // a tet's own volume modulus, or that of each frame beside the shared volume
     const vsc_wide own = corners == 4 ? in.moduli.element_modulus : in.moduli.stabilization;
     for (int q = 0; q < points; q++) {
+      const frame_numbers frame = frame_of(&pack.frames[q], pack.other);
       vsc_wide3 rate[3], P[3];
-      if (damping) solid_axes(&pack.frames[q], pack.speed[q], rate);
+      if (damping) solid_axes(&frame, pack.speed[q], rate);
       if (general)
         law_frame(&in, g[q], damping ? rate : NULL, pressure, own, P);
       else
         solid_stress(work, k, &in.moduli, g[q], rate, damping, pressure, P);
-      solid_flux(&pack.frames[q], P, pack.h[q]);
+      solid_flux(&frame, P, pack.h[q]);
     }
     solid_back(work->rule, corners, points, pack.h, f);
-    for (int c = 0; c < corners; c++) scatter_corner(pack.node[c], f[c], work->f);
+    scatter_corners(pack.node, pack.other, corners, f, work->f);
   }
 }
 

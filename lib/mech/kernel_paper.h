@@ -67,12 +67,12 @@ VSC_INLINE void paper_tet_kernel(const vsc_patch_work *work, bool damping)
     const vsc_pack *pack = &packs[k];
     vsc_wide3 edge[3], speed[3], g[3], change[3], F[3], f[4];
     vsc_wide length[3], rate[3] = {vsc_splat(0), vsc_splat(0), vsc_splat(0)};
-    gather_edges(pack, work->x, edge);
-    frame_axes(pack, edge, g);
+    gather_edges(pack, 0, work->x, edge);
+    frame_axes(pack, 0, edge, g);
     const vsc_frame_axes frame = vsc_frame_of(g);
     if (damping) {
-      gather_edges(pack, work->w, speed);
-      frame_axes(pack, speed, change);
+      gather_edges(pack, 0, work->w, speed);
+      frame_axes(pack, 0, speed, change);
     }
     // l_a = r_a g_a
     for (int a = 0; a < 3; a++) {
@@ -146,8 +146,8 @@ VSC_INLINE void paper_hex_kernel(const vsc_patch_work *work, bool damping)
     vsc_wide3 x[8], v[8], l[3], u[3], F[3], f[8];
     vsc_wide length[3], inverse, rate[3] = {vsc_splat(0), vsc_splat(0), vsc_splat(0)};
     for (int i = 0; i < 8; i++) {
-      x[i] = gather_corner(node[i], work->x);
-      if (damping) v[i] = gather_corner(node[i], work->w);
+      x[i] = gather_corner(corner_of(node[i], 0), work->x);
+      if (damping) v[i] = gather_corner(corner_of(node[i], 0), work->w);
     }
     for (int a = 0; a < 3; a++) {
       l[a] = weighted_sum(axes[k].w[a], x);
@@ -199,8 +199,8 @@ VSC_INLINE void spring_kernel(const vsc_patch_work *work, bool damping)
                vsc_wide_dot((vsc_wide3){d[0], d[1], d[2]}, way) * inverse;
     }
     const vsc_wide3 on_first = vsc_wide_scale(force * inverse, way);
-    vsc_wide f[VSC_WIDTH] = {on_first.x, on_first.y, on_first.z, vsc_splat(0)};
-    vsc_transpose(&f[0], &f[1], &f[2], &f[3]);
+    vsc_wide f[VSC_WIDTH];
+    vsc_wide_rows(on_first, f);
     for (int l = 0; l < VSC_WIDTH; l++) {
       *(vsc_wide *)(work->f + 4 * pack->node[0][l]) += f[l];
       *(vsc_wide *)(work->f + 4 * pack->node[1][l]) -= f[l];

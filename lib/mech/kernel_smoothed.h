@@ -12,8 +12,8 @@
 // Writes column `column` of four matrices.
 VSC_INLINE void store_column(vsc_wide3 of_four, int column, double *matrices)
 {
-  vsc_wide lane[VSC_WIDTH] = {of_four.x, of_four.y, of_four.z, vsc_splat(0)};
-  vsc_transpose(&lane[0], &lane[1], &lane[2], &lane[3]);
+  vsc_wide lane[VSC_WIDTH];
+  vsc_wide_rows(of_four, lane);
   for (int l = 0; l < VSC_WIDTH; l++)
     *(vsc_wide *)(matrices + VSC_MATRIX * l + 4 * column) = lane[l];
 }
@@ -25,8 +25,8 @@ static void gradient_kernel(const vsc_patch_work *work)
   for (size_t k = 0; k < work->pack_count; k++) {
     const vsc_wide(*axes)[3] = work->smoothed[k].axes;
     vsc_wide3 edge[3], g[3];
-    gather_edges(&packs[k], work->x, edge);
-    frame_axes(&packs[k], edge, g);
+    gather_edges(&packs[k], 0, work->x, edge);
+    frame_axes(&packs[k], 0, edge, g);
     for (int c = 0; c < 3; c++)
       store_column(vsc_wide_combine(axes[0][c], g[0], axes[1][c], g[1], axes[2][c], g[2]), c,
                    work->gradient + VSC_MATRIX * VSC_WIDTH * k);
@@ -64,11 +64,11 @@ VSC_INLINE void smoothed_kernel(const vsc_patch_work *work, bool volume, bool no
     gather_edge_stress(&work->smoothed[k], work->edge_stress, P);
     if (volume) {
       vsc_wide3 edge[3], g[3];
-      gather_edges(pack, work->x, edge);
-      frame_axes(pack, edge, g);
-      add_volume_stress(pack, moduli_of(work, k, false).element_modulus, work->pressure, g, nodal, P);
+      gather_edges(pack, 0, work->x, edge);
+      frame_axes(pack, 0, edge, g);
+      add_volume_stress(pack, 0, moduli_of(work, k, false).element_modulus, work->pressure, g, nodal, P);
     }
-    scatter_forces(pack, P, work->f);
+    scatter_forces(pack, 0, P, work->f);
   }
 }
 

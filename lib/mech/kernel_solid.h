@@ -120,8 +120,21 @@ VSC_INLINE void solid_back(const vsc_cell_rule *rule, int corners, int points,
     plain_back(rule, corners, points, flux, f);
 }
 
+// A frame of the elements that are computed together: a vsc_frame, or two side by side.
+typedef struct frame_numbers {
+  vsc_wide T[3][3], V;
+} frame_numbers;
+
+VSC_INLINE frame_numbers frame_of(const vsc_frame *frame, size_t bytes)
+{
+  frame_numbers f = {.V = joined(&frame->V, bytes)};
+  for (int a = 0; a < 3; a++)
+    for (int k = 0; k < 3; k++) f.T[a][k] = joined(&frame->T[a][k], bytes);
+  return f;
+}
+
 // What goes back to the corners from a frame under stress P: f_i = -sum_k D_ki V sum_a P_a T_ak.
-VSC_INLINE void solid_flux(const vsc_frame *frame, const vsc_wide3 P[3], vsc_wide3 flux[3])
+VSC_INLINE void solid_flux(const frame_numbers *frame, const vsc_wide3 P[3], vsc_wide3 flux[3])
 {
   for (int i = 0; i < 3; i++)
     flux[i] = vsc_wide_scale(-frame->V, vsc_wide_combine(frame->T[0][i], P[0], frame->T[1][i], P[1],
@@ -129,14 +142,15 @@ VSC_INLINE void solid_flux(const vsc_frame *frame, const vsc_wide3 P[3], vsc_wid
 }
 
 // g_a = sum_k T_ak h_k
-VSC_INLINE void solid_axes(const vsc_frame *frame, const vsc_wide3 h[3], vsc_wide3 g[3])
+VSC_INLINE void solid_axes(const frame_numbers *frame, const vsc_wide3 h[3], vsc_wide3 g[3])
 {
   for (int a = 0; a < 3; a++)
     g[a] = vsc_wide_combine(frame->T[a][0], h[0], frame->T[a][1], h[1], frame->T[a][2], h[2]);
 }
 
-// A pack of cells opened for its forces or its tangent.
+// A pack of cells, with the one behind it, opened for its forces or its tangent.
 typedef struct opened_pack {
+  size_t other;  // how many bytes behind it the other pack is
   const vsc_frame *frames;
   const uint16_t (*node)[VSC_WIDTH];
   vsc_wide3 h[VSC_MOST_POINTS][3];      // derivatives of positions at all points
@@ -147,7 +161,7 @@ VSC_INLINE void open_derivatives(const vsc_patch_work *work, const opened_pack *
                                  int points, const double *nodes, vsc_wide3 (*h)[3])
 {
   vsc_wide3 x[VSC_MOST_CORNERS];
-  for (int c = 0; c < corners; c++) x[c] = gather_corner(pack->node[c], nodes);
+  for (int c = 0; c < corners; c++) x[c] = gather_corner(corner_of(pack->node[c], pack->other), nodes);
   derivatives(work->rule, corners, points, x, h);
 }
 
@@ -155,6 +169,7 @@ VSC_INLINE void open_pack(const vsc_patch_work *work, size_t k, int corners, int
                           bool damping, opened_pack *pack)
 {
   const size_t bytes = vsc_pack_bytes(corners, points);
+  pack->other = other_pack(work, k) * bytes;
   pack->frames = (const vsc_frame *)((const char *)work->packs + k * bytes);
   pack->node = (const uint16_t(*)[VSC_WIDTH])(pack->frames + points);
   open_derivatives(work, pack, corners, points, work->x, pack->h);
@@ -163,14 +178,15 @@ VSC_INLINE void open_pack(const vsc_patch_work *work, size_t k, int corners, int
 
 // J = sum_q V_q det G_q / sum_q V_q, 1 in an empty place. The axes of all frames come back in g, the
 // volume (1 in an empty place) in *whole.
-VSC_INLINE vsc_wide mean_ratio(const vsc_frame *frames, int points, const vsc_wide3 (*h)[3],
+VSC_INLINE vsc_wide mean_ratio(const opened_pack *pack, int points, const vsc_wide3 (*h)[3],
                                vsc_wide3 (*g)[3], vsc_wide *whole)
 {
   vsc_wide volume = vsc_splat(0), rest = vsc_splat(0);
   for (int q = 0; q < points; q++) {
-    solid_axes(&frames[q], h[q], g[q]);
-    volume += frames[q].V * vsc_wide_dot(g[q][0], vsc_wide_cross(g[q][1], g[q][2]));
-    rest += frames[q].V;
+    const frame_numbers frame = frame_of(&pack->frames[q], pack->other);
+    solid_axes(&frame, h[q], g[q]);
+    volume += frame.V * vsc_wide_dot(g[q][0], vsc_wide_cross(g[q][1], g[q][2]));
+    rest += frame.V;
   }
   const vsc_wide_mask full = rest > 0;
   *whole = vsc_select(full, rest, vsc_splat(1));
@@ -178,11 +194,11 @@ VSC_INLINE vsc_wide mean_ratio(const vsc_frame *frames, int points, const vsc_wi
 }
 
 // The mean of the four nodes' pressures, of tets that share their volume.
-VSC_INLINE vsc_wide nodes_pressure(const vsc_patch_work *work, const uint16_t (*node)[VSC_WIDTH])
+VSC_INLINE vsc_wide nodes_pressure(const vsc_patch_work *work, const opened_pack *pack)
 {
   vsc_wide pressure = vsc_splat(0);
   for (int c = 0; c < 4 && work->shares_volume; c++)
-    for (int l = 0; l < VSC_WIDTH; l++) pressure[l] += 0.25 * work->pressure[node[c][l]];
+    pressure += 0.25 * node_numbers(work->pressure, corner_of(pack->node[c], pack->other));
   return pressure;
 }
 
@@ -196,7 +212,7 @@ VSC_INLINE void solid_stress(const vsc_patch_work *work, size_t k, const vsc_mix
   vsc_wide along[3] = {vsc_splat(0), vsc_splat(0), vsc_splat(0)};
   for (int a = 0; damping && a < 3; a++)
     along[a] = moduli->damping[a] * vsc_wide_dot(rate[a], axes.u[a]);
-  const vsc_wide activation = work->activation[k * work->activation_stride];
+  const vsc_wide activation = activation_of(work, k);
   const vsc_springs law = springs_of(material, moduli, material->active, activation);
   if (material->active == VSC_ACTIVE_TENSION)
     along[0] += moduli->share * activation * material->tension * axes.length[0];

@@ -9,9 +9,9 @@
 // g_a = sum_k T_ak (x_k - x_0)
 VSC_INLINE void triangle_axes(const vsc_triangle_pack *pack, const double *nodes, vsc_wide3 g[2])
 {
-  const vsc_wide3 first = gather_corner(pack->node[0], nodes);
-  const vsc_wide3 h[2] = {vsc_wide_minus(gather_corner(pack->node[1], nodes), first),
-                          vsc_wide_minus(gather_corner(pack->node[2], nodes), first)};
+  const vsc_wide3 first = gather_corner(corner_of(pack->node[0], 0), nodes);
+  const vsc_wide3 h[2] = {vsc_wide_minus(gather_corner(corner_of(pack->node[1], 0), nodes), first),
+                          vsc_wide_minus(gather_corner(corner_of(pack->node[2], 0), nodes), first)};
   for (int a = 0; a < 2; a++)
     g[a] = vsc_wide_add(vsc_wide_scale(pack->T[a][0], h[0]), vsc_wide_scale(pack->T[a][1], h[1]));
 }
@@ -59,11 +59,11 @@ VSC_INLINE void bend_kernel(const vsc_patch_work *work, bool damping)
   for (size_t k = 0; k < work->pack_count; k++) {
     vsc_wide3 x[VSC_BEND_NODES], f[VSC_BEND_NODES];
     vsc_fold folds[VSC_BEND_FOLDS];
-    for (int i = 0; i < VSC_BEND_NODES; i++) x[i] = gather_corner(packs[k].node[i], work->x);
+    for (int i = 0; i < VSC_BEND_NODES; i++) x[i] = gather_corner(corner_of(packs[k].node[i], 0), work->x);
     vsc_bend_folds(x, folds);
     vsc_wide lead[VSC_BEND_FOLDS] = {vsc_splat(0)};
     if (damping) {
-      for (int i = 0; i < VSC_BEND_NODES; i++) x[i] = gather_corner(packs[k].node[i], work->w);
+      for (int i = 0; i < VSC_BEND_NODES; i++) x[i] = gather_corner(corner_of(packs[k].node[i], 0), work->w);
       vsc_bend_rates(folds, x, lead);
       for (int j = 0; j < VSC_BEND_FOLDS; j++) lead[j] *= work->membrane->lag;
     }

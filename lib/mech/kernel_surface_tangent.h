@@ -129,7 +129,7 @@ VSC_INLINE void fold_changes(const vsc_patch_work *work, const vsc_bend_pack *pa
     vsc_wide3 former[VSC_BEND_NODES];
     vsc_fold before[VSC_BEND_FOLDS];
     for (int i = 0; i < VSC_BEND_NODES; i++) {
-      former[i] = gather_corner(pack->node[i], work->before);
+      former[i] = gather_corner(corner_of(pack->node[i], 0), work->before);
       moved[i] = vsc_wide_minus(x[i], former[i]);
     }
     vsc_bend_folds(former, before);
@@ -137,7 +137,7 @@ VSC_INLINE void fold_changes(const vsc_patch_work *work, const vsc_bend_pack *pa
     for (int j = 0; j < VSC_BEND_FOLDS; j++) change[j] = before[j].phi + rates[j] - pack->bends.rest[j];
   }
   if (work->w == NULL) return;
-  for (int i = 0; i < VSC_BEND_NODES; i++) moved[i] = gather_corner(pack->node[i], work->w);
+  for (int i = 0; i < VSC_BEND_NODES; i++) moved[i] = gather_corner(corner_of(pack->node[i], 0), work->w);
   vsc_bend_rates(folds, moved, rates);
   for (int j = 0; j < VSC_BEND_FOLDS; j++) change[j] += work->membrane->lag * rates[j];
 }
@@ -152,7 +152,7 @@ static void tangent_bends(const vsc_patch_work *work, size_t k, vsc_wide *K)
   vsc_fold folds[VSC_BEND_FOLDS];
   vsc_wide change[VSC_BEND_FOLDS], moment[3];
   for (int i = 0; i < VSC_BEND_NODES; i++) {
-    x[i] = gather_corner(pack->node[i], work->x);
+    x[i] = gather_corner(corner_of(pack->node[i], 0), work->x);
     for (int m = 0; m < 3; m++) slope[m][i] = wide_zero();
   }
   vsc_bend_folds(x, folds);

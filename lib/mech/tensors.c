@@ -143,7 +143,7 @@ static pack_tensors stress_of(const vsc_patch_work *work, const vsc_model *model
       .material = work->material,
       .axes = work->axes,
       .pairs = work->pairs,
-      .moduli = vsc_moduli_or(work->material, patch->mixed ? &work->mixtures[place] : NULL),
+      .moduli = vsc_moduli_or(work->material, patch->mixed ? vsc_pack_mixture(model, patch, k) : NULL),
       .activation = work->activation[place * work->activation_stride]};
   // a tet's own volume modulus, or that of each frame beside the shared volume
   const vsc_wide own =

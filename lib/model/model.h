@@ -39,8 +39,8 @@ typedef enum vsc_family {
 
 // Four triangles of a membrane: g_a = sum_k T_ak (x_k - x_0). Empty places have T = 0 and V = 0.
 typedef struct vsc_triangle_pack {
-  vsc_wide T[2][2];  // 1/mm
-  vsc_wide V;        // thickness times area at rest, mm^3
+  vsc_four T[2][2];  // 1/mm
+  vsc_four V;        // thickness times area at rest, mm^3
   uint16_t node[3][VSC_WIDTH];
 } vsc_triangle_pack;
 
@@ -66,25 +66,25 @@ typedef struct vsc_membrane {
 // Four classical springs: force on the first node -[k (l - r) + k_d dl/dt] u, u from the second to
 // the first.
 typedef struct vsc_edge_pack {
-  vsc_wide length;  // r at rest, mm
+  vsc_four length;  // r at rest, mm
   uint16_t node[2][VSC_WIDTH];
 } vsc_edge_pack;
 
 // What law PAPER needs of four tets beside their frames.
 typedef struct vsc_chords {
-  vsc_wide r[3];    // lengths of the axes between the faces at rest, mm
-  vsc_wide radius;  // sum of the corners' distances from the barycentre at rest, mm
+  vsc_four r[3];    // lengths of the axes between the faces at rest, mm
+  vsc_four radius;  // sum of the corners' distances from the barycentre at rest, mm
 } vsc_chords;
 
 // Four hexahedra under law PAPER: axis l_a = sum_i w_ai x_i between two faces.
 typedef struct vsc_hex_axes {
-  vsc_wide w[3][8];
-  vsc_wide r[3];       // |l_a| at rest, mm; the axes are at right angles then
-  vsc_wide radius[8];  // distances of the corners from the barycentre at rest, mm
-  vsc_wide volume;     // mm^3; for moduli per volume
+  vsc_four w[3][8];
+  vsc_four r[3];       // |l_a| at rest, mm; the axes are at right angles then
+  vsc_four radius[8];  // distances of the corners from the barycentre at rest, mm
+  vsc_four volume;     // mm^3; for moduli per volume
 } vsc_hex_axes;
 
-// Moduli of four elements: their material's, or what inclusions make of them.
+// Moduli of elements: their material's, or what inclusions make of them. The store holds those of four.
 typedef struct vsc_mixture {
   vsc_wide axial[3], angular[3], coupling[3], damping[3];
   vsc_wide viscosity;

@@ -24,14 +24,14 @@ enum {
 
 // What four smoothed tets have beside their frame.
 typedef struct vsc_smoothed_pack {
-  vsc_wide axes[3][3];                      // [axis][coordinate]: unit vectors f, s, n at rest
+  vsc_four axes[3][3];                      // [axis][coordinate]: unit vectors f, s, n at rest
   uint32_t edge[VSC_TET_EDGES][VSC_WIDTH];  // their edges, in the order of the kind's list
 } vsc_smoothed_pack;
 
 // Frames of four edges. Empty places are copies of the last edge with V = 0.
 typedef struct vsc_edge_frame {
-  vsc_wide axes[3][3];  // [axis][coordinate]: unit vectors f, s, n at rest
-  vsc_wide V;           // V_e, mm^3
+  vsc_four axes[3][3];  // [axis][coordinate]: unit vectors f, s, n at rest
+  vsc_four V;           // V_e, mm^3
 } vsc_edge_frame;
 
 // Packs of edges of one material, neighbours in space.

@@ -25,15 +25,15 @@
 // One frame of four cells that are computed together. Empty places have T = 0 and V = 0, so that
 // they contribute nothing.
 typedef struct vsc_frame {
-  vsc_wide T[3][3];  // [axis][k], 1/mm for a tet
-  vsc_wide V;        // rest volume that the frame stands for, mm^3
+  vsc_four T[3][3];  // [axis][k], 1/mm for a tet
+  vsc_four V;        // rest volume that the frame stands for, mm^3
 } vsc_frame;
 
 // Four tets: their frame, and node 0 at each corner of an empty place; 88 bytes a tet. The packs of
 // other kinds are alike: their frames, then their nodes.
 typedef struct vsc_pack {
-  vsc_wide B[3][3];             // [axis][corner - 1], 1/mm; corner 0 has minus the sum of the three
-  vsc_wide V;                   // rest volume, mm^3
+  vsc_four B[3][3];             // [axis][corner - 1], 1/mm; corner 0 has minus the sum of the three
+  vsc_four V;                   // rest volume, mm^3
   uint16_t node[4][VSC_WIDTH];  // [corner][tet]: node number within the patch
 } vsc_pack;
 
@@ -42,7 +42,7 @@ static inline size_t vsc_pack_bytes(int corners, int frames)
 {
   const size_t bytes = (size_t)frames * sizeof(vsc_frame) +
                        (size_t)corners * VSC_WIDTH * sizeof(uint16_t);
-  return (bytes + sizeof(vsc_wide) - 1) / sizeof(vsc_wide) * sizeof(vsc_wide);
+  return (bytes + sizeof(vsc_four) - 1) / sizeof(vsc_four) * sizeof(vsc_four);
 }
 
 // B_ai = grad N_i . a (1/mm) of the linear tet with corners `x` (mm) and axes `frame` (rows f, s,

@@ -27,7 +27,9 @@ extern const vsc_bench_problem vsc_bench_arostica_0a;            // a ventricle 
 extern const vsc_bench_problem vsc_bench_arostica_0b;            // is filled, and snaps through
 extern const vsc_bench_problem vsc_bench_arostica_1;             // both
 extern const vsc_bench_problem vsc_bench_arostica_0a_explicit;
+extern const vsc_bench_problem vsc_bench_arostica_0b_explicit;
 extern const vsc_bench_problem vsc_bench_arostica_1_explicit;
-extern const vsc_bench_problem vsc_bench_arostica_biventricle;   // two ventricles
+extern const vsc_bench_problem vsc_bench_arostica_biventricle; // two ventricles
+extern const vsc_bench_problem vsc_bench_arostica_biventricle_explicit;
 
 #endif

@@ -129,6 +129,12 @@ const vsc_bench_problem vsc_bench_arostica_0b = {
     .variants = VSC_COUNTED(implicit_only), .sizes = VSC_COUNTED(walls),
     .quantities = VSC_COUNTED(snaps),
 };
+const vsc_bench_problem vsc_bench_arostica_0b_explicit = {
+    .name = "arostica_0b", .title = "Arostica 2025, case 0B in explicit steps",
+    .scene = "arostica_0b.yaml", .mesh = "monoventricle_5mm.vtu",
+    .variants = VSC_COUNTED(explicit_only), .sizes = VSC_COUNTED(walls),
+    .quantities = VSC_COUNTED(snaps),
+};
 
 static const vsc_bench_quantity beats[] = {
     POINT("p0", "arostica_mono_1", 0.05), POINT("p1", "arostica_mono_1", 0.05),
@@ -158,6 +164,12 @@ const vsc_bench_problem vsc_bench_arostica_biventricle = {
     .name = "arostica_biventricle", .title = "Arostica 2025, case 2: two ventricles beat",
     .scene = "arostica_biventricle.yaml", .mesh = "biventricle_coarse.vtu",
     .variants = VSC_COUNTED(implicit_only), .sizes = VSC_COUNTED(shown_walls),
+    .quantities = VSC_COUNTED(two_beat),
+};
+const vsc_bench_problem vsc_bench_arostica_biventricle_explicit = {
+    .name = "arostica_biventricle", .title = "Arostica 2025, case 2 in explicit steps",
+    .scene = "arostica_biventricle.yaml", .mesh = "biventricle_coarse.vtu",
+    .variants = VSC_COUNTED(explicit_only), .sizes = VSC_COUNTED(walls),
     .quantities = VSC_COUNTED(two_beat),
 };
 
