@@ -12,7 +12,7 @@
 #define FORCE_KERNEL(composed, damping, active, nodal)                             \
   static void force_##composed##damping##active##nodal(const vsc_patch_work *work) \
   {                                                                                \
-    force_kernel(work, composed, damping, active, nodal);                          \
+    force_kernel(work, false, composed, damping, active, nodal);                          \
   }
 #define FORCE_KERNELS(composed, active)  \
   FORCE_KERNEL(composed, 0, active, 0)   \

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The force of cells of any kind: under any law that is a function of strain (model/law.h), and of
-// those with several frames under law SPRINGS. Internal to mech; included by kernel_body.h.
+// The stress of any law that is a function of strain (model/law.h); the force of cells with several frames,
+// under such a law or under law SPRINGS. Internal to mech; included by kernel_cells.h.
 #ifndef VSC_MECH_KERNEL_LAW_H
 #define VSC_MECH_KERNEL_LAW_H
 
@@ -27,16 +27,20 @@ VSC_INLINE vsc_law_input law_input_of(const vsc_patch_work *work, size_t k)
                          .activation = activation_of(work, k)};
 }
 
-// The pressure that all frames of four cells share: U' of their mean volume ratio and what a multiplier
-// adds; of tets that share their volume with others the mean of their nodes'. The axes of all frames come
-// back in g.
+// The same of pack k from that of another pack.
+VSC_INLINE void law_input_next(const vsc_patch_work *work, size_t k, vsc_law_input *in)
+{
+  if (work->mixtures != NULL) in->moduli = moduli_of(work, k, true);
+  in->activation = activation_of(work, k);
+}
+
+// The pressure that all frames of a cell share: U' of their mean volume ratio and what a multiplier
+// adds. The axes of all frames come back in g.
 VSC_INLINE vsc_wide common_pressure(const vsc_patch_work *work, size_t k, const opened_pack *pack,
-                                    int corners, int points, const vsc_mixture *moduli,
-                                    vsc_wide3 (*g)[3])
+                                    int points, const vsc_mixture *moduli, vsc_wide3 (*g)[3])
 {
   vsc_wide whole;
   const vsc_wide J = mean_ratio(pack, points, pack->h, g, &whole);
-  if (corners == 4) return nodes_pressure(work, pack);
   return vsc_volume_stress(moduli->volume_modulus, J) + multiplier_of(work, k);
 }
 
@@ -63,20 +67,19 @@ VSC_INLINE void law_frame(const vsc_law_input *in, const vsc_wide3 g[3], const v
 VSC_INLINE void cell_kernel(const vsc_patch_work *work, int corners, int points, bool damping,
                             bool general)
 {
+  vsc_law_input in = law_input_of(work, 0);
   for (size_t k = 0; k < work->pack_count; k += PACKS) {
     opened_pack pack;
     vsc_wide3 f[VSC_MOST_CORNERS], g[VSC_MOST_POINTS][3];
     open_pack(work, k, corners, points, damping, &pack);
-    const vsc_law_input in = law_input_of(work, k);
-    const vsc_wide pressure = common_pressure(work, k, &pack, corners, points, &in.moduli, g);
-    // a tet's own volume modulus, or that of each frame beside the shared volume
-    const vsc_wide own = corners == 4 ? in.moduli.element_modulus : in.moduli.stabilization;
+    law_input_next(work, k, &in);
+    const vsc_wide pressure = common_pressure(work, k, &pack, points, &in.moduli, g);
     for (int q = 0; q < points; q++) {
       const frame_numbers frame = frame_of(&pack.frames[q], pack.other);
       vsc_wide3 rate[3], P[3];
       if (damping) solid_axes(&frame, pack.speed[q], rate);
       if (general)
-        law_frame(&in, g[q], damping ? rate : NULL, pressure, own, P);
+        law_frame(&in, g[q], damping ? rate : NULL, pressure, in.moduli.stabilization, P);
       else
         solid_stress(work, k, &in.moduli, g[q], rate, damping, pressure, P);
       solid_flux(&frame, P, pack.h[q]);
@@ -99,7 +102,6 @@ CELL_KERNELS(springs_hexes, 8, 8, false)
 CELL_KERNELS(springs_wedges, 6, 6, false)
 CELL_KERNELS(springs_pyramids, 5, 8, false)
 CELL_KERNELS(springs_tets10, 10, 4, false)
-CELL_KERNELS(law_tets, 4, 1, true)
 CELL_KERNELS(law_hexes, 8, 8, true)
 CELL_KERNELS(law_wedges, 6, 6, true)
 CELL_KERNELS(law_pyramids, 5, 8, true)

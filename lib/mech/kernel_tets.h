@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Linear tets under law SPRINGS. Internal to mech; included by kernel_body.h.
+// Linear tets, under law SPRINGS or any law of strain. Internal to mech; included by kernel_cells.h.
 #ifndef VSC_MECH_KERNEL_TETS_H
 #define VSC_MECH_KERNEL_TETS_H
 
-#include "mech/kernel_common.h"
+#include "mech/kernel_law.h"
 
 // Turns of packs that go through each stage together. One pack is a chain of some 170 cycles (gather, roots,
 // a division, scatter) of 590 instructions, more than a processor looks ahead: stage by stage,
@@ -114,10 +114,24 @@ VSC_INLINE void gather_axes(const vsc_patch_work *work, size_t k, const double *
   frame_axes(pack, other_pack(work, k), edge, g);
 }
 
-VSC_INLINE void force_kernel(const vsc_patch_work *work, bool composed, bool damping,
+// The same under any law of strain, of which `in` is what the pack before had.
+VSC_INLINE void pack_law_stress(const vsc_patch_work *work, size_t k, const vsc_wide3 g[3],
+                                const vsc_wide3 rate[3], bool damping, vsc_law_input *in, vsc_wide3 P[3])
+{
+  const vsc_pack *pack = (const vsc_pack *)work->packs + k;
+  vsc_wide pressure = vsc_splat(0);
+  law_input_next(work, k, in);
+  if (work->shares_volume) pressure = mean_pressure(pack, other_pack(work, k), work->pressure);
+  law_frame(in, g, damping ? rate : NULL, pressure, in->moduli.element_modulus, P);
+}
+
+// `general`: any law of strain; else law SPRINGS with what follows.
+VSC_INLINE void force_kernel(const vsc_patch_work *work, bool general, bool composed, bool damping,
                              vsc_active_kind active, bool nodal)
 {
   vsc_wide3 g[TOGETHER][3], rate[TOGETHER][3], P[TOGETHER][3];
+  vsc_law_input in;
+  if (general) in = law_input_of(work, 0);
   const vsc_pack *packs = work->packs;
   for (size_t first = 0; first < work->pack_count; first += TOGETHER * PACKS) {
     const size_t left = (work->pack_count - first + PACKS - 1) / PACKS;
@@ -126,11 +140,24 @@ VSC_INLINE void force_kernel(const vsc_patch_work *work, bool composed, bool dam
     for (size_t t = 0; damping && t < count; t++) gather_axes(work, first + PACKS * t, work->w, rate[t]);
     for (size_t t = 0; t < count; t++) {
       fetch_packs(&packs[first + PACKS * (t + TOGETHER)]);
-      pack_stress(work, first + PACKS * t, g[t], rate[t], composed, damping, active, nodal, P[t]);
+      if (general)
+        pack_law_stress(work, first + PACKS * t, g[t], rate[t], damping, &in, P[t]);
+      else
+        pack_stress(work, first + PACKS * t, g[t], rate[t], composed, damping, active, nodal, P[t]);
     }
     for (size_t t = 0; t < count; t++)
       scatter_forces(&packs[first + PACKS * t], other_pack(work, first + PACKS * t), P[t], work->f);
   }
+}
+
+static void law_tets(const vsc_patch_work *work)
+{
+  force_kernel(work, true, true, false, VSC_ACTIVE_NONE, false);
+}
+
+static void damped_law_tets(const vsc_patch_work *work)
+{
+  force_kernel(work, true, true, true, VSC_ACTIVE_NONE, false);
 }
 
 static void volume_kernel(const vsc_patch_work *work)
