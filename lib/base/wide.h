@@ -18,6 +18,14 @@ typedef double vsc_four __attribute__((vector_size(VSC_WIDTH * sizeof(double))))
 typedef double vsc_wide __attribute__((vector_size(VSC_LANES * sizeof(double))));  // as they are computed
 typedef int64_t vsc_wide_mask __attribute__((vector_size(VSC_LANES * sizeof(int64_t))));
 
+// A function of loops over vectors, compiled for AVX2 too and picked when the program starts. All that it calls
+// with vectors must be inlined.
+#if defined __x86_64__ && defined __GNUC__ && !defined __clang__
+#define VSC_CLONED __attribute__((target_clones("avx2", "default")))
+#else
+#define VSC_CLONED
+#endif
+
 // Vectors never cross a real call: every function on them is inlined.
 #define VSC_INLINE static inline __attribute__((always_inline))
 

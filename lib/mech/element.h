@@ -7,18 +7,18 @@
 #include "model/law_active.h"
 #include "model/law_springs.h"
 
-// Corner positions (or velocities) of four parts, from node x 4 numbers in the model's order.
+// Corner positions (or velocities) of four parts, from node x 4 numbers in the model's order (aligned as vsc_alloc does).
 VSC_INLINE void vsc_pack_corners(const vsc_model *model, const vsc_patch *patch,
                                  const uint16_t (*node)[VSC_WIDTH], int corners,
                                  const double *nodes, vsc_wide3 *x)
 {
-  for (int c = 0; c < corners; c++)
-    for (int l = 0; l < VSC_WIDTH; l++) {
-      const double *at = nodes + 4 * (size_t)vsc_node_of(model, patch, node[c][l]);
-      x[c].x[l] = at[0];
-      x[c].y[l] = at[1];
-      x[c].z[l] = at[2];
-    }
+  for (int c = 0; c < corners; c++) {
+    vsc_wide row[VSC_WIDTH];
+    for (int l = 0; l < VSC_WIDTH; l++)
+      row[l] = *(const vsc_wide *)(nodes + 4 * (size_t)vsc_node_of(model, patch, node[c][l]));
+    vsc_transpose(&row[0], &row[1], &row[2], &row[3]);
+    x[c] = (vsc_wide3){row[0], row[1], row[2]};
+  }
 }
 
 // G = sum_i B_ai x_i of frame `q` of four cells, from node x 4 numbers in the model's order.

@@ -6,25 +6,25 @@
 #include "model/law_viscous.h"
 #include "model/law_volume.h"
 
-static vsc_wide length_of(vsc_wide3 a)
+VSC_INLINE vsc_wide length_of(vsc_wide3 a)
 {
   return vsc_wide_sqrt(vsc_wide_dot(a, a));
 }
 
-static vsc_wide per_length(vsc_wide number, vsc_wide length)
+VSC_INLINE vsc_wide per_length(vsc_wide number, vsc_wide length)
 {
   const vsc_wide_mask long_enough = length > VSC_SHORTEST_AXIS;
   return vsc_where(long_enough, number / vsc_select(long_enough, length, vsc_splat(1)));
 }
 
-static vsc_wide3 along_axis(const double d[3], const vsc_wide3 g[3])
+VSC_INLINE vsc_wide3 along_axis(const double d[3], const vsc_wide3 g[3])
 {
   return vsc_wide_combine(vsc_splat(d[0]), g[0], vsc_splat(d[1]), g[1], vsc_splat(d[2]), g[2]);
 }
 
 // ---- cells
 
-static void add_more_axes(const vsc_model *model, const vsc_material *material, vsc_wide V,
+VSC_INLINE void add_more_axes(const vsc_model *model, const vsc_material *material, vsc_wide V,
                           const vsc_wide3 g[3], const vsc_wide3 rate[3], vsc_pack_energies *sum)
 {
   for (size_t d = 0; d < material->axis_count; d++) {
@@ -44,7 +44,7 @@ static void add_more_axes(const vsc_model *model, const vsc_material *material, 
   }
 }
 
-static void add_springs(const vsc_model *model, const vsc_material *material,
+VSC_INLINE void add_springs(const vsc_model *model, const vsc_material *material,
                         const vsc_pack_law *law, vsc_wide V, const vsc_wide3 g[3],
                         const vsc_wide3 rate[3], vsc_pack_energies *sum)
 {
@@ -60,7 +60,7 @@ static void add_springs(const vsc_model *model, const vsc_material *material,
 }
 
 // psi - m ln J of a tissue law.
-static void add_tissue(const vsc_material *material, vsc_wide V, const vsc_wide3 g[3],
+VSC_INLINE void add_tissue(const vsc_material *material, vsc_wide V, const vsc_wide3 g[3],
                        vsc_pack_energies *sum)
 {
   const vsc_law_input in = {.material = material, .moduli = vsc_moduli_or(material, NULL)};
@@ -77,7 +77,7 @@ static void add_tissue(const vsc_material *material, vsc_wide V, const vsc_wide3
 }
 
 // eta dE/dt : dE/dt
-static vsc_wide viscous_power(vsc_wide viscosity, const vsc_wide3 g[3], const vsc_wide3 rate[3])
+VSC_INLINE vsc_wide viscous_power(vsc_wide viscosity, const vsc_wide3 g[3], const vsc_wide3 rate[3])
 {
   vsc_wide speed[6], square = vsc_splat(0);
   vsc_strain_rate(g, rate, speed);
@@ -86,7 +86,7 @@ static vsc_wide viscous_power(vsc_wide viscosity, const vsc_wide3 g[3], const vs
 }
 
 // Four frames of any law of strain, which stand for the volumes V.
-static void add_law(const vsc_model *model, const vsc_material *material, const vsc_pack_law *law,
+VSC_INLINE void add_law(const vsc_model *model, const vsc_material *material, const vsc_pack_law *law,
                     vsc_wide V, const vsc_wide3 g[3], const vsc_wide3 rate[3],
                     vsc_pack_energies *sum)
 {
@@ -108,7 +108,7 @@ vsc_pack_energies vsc_edge_energies_of(const vsc_model *model, const vsc_edge_wo
   return sum;
 }
 
-static vsc_pack_energies cells(const vsc_model *model, const vsc_patch *patch, size_t k, const vsc_pack_law *law,
+VSC_CLONED static vsc_pack_energies cells(const vsc_model *model, const vsc_patch *patch, size_t k, const vsc_pack_law *law,
                                vsc_wide3 (*axes)[3], const double *v)
 {
   const vsc_material *material = &model->materials[patch->material];
@@ -136,7 +136,7 @@ static vsc_pack_energies cells(const vsc_model *model, const vsc_patch *patch, s
 
 // ---- law PAPER
 
-static void add_paper_axes(const vsc_paper_def *paper, const vsc_wide3 l[3], const vsc_wide3 rate[3],
+VSC_INLINE void add_paper_axes(const vsc_paper_def *paper, const vsc_wide3 l[3], const vsc_wide3 rate[3],
                            const vsc_wide r[3], vsc_pack_energies *sum)
 {
   vsc_wide length[3];

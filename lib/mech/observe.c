@@ -49,7 +49,7 @@ typedef struct observation {
 
 // Active tension of four frames: its range, and its work since the last call. `place` is where the
 // ledger keeps the first, `taken` says which are there.
-static void add_active(const observation *o, vsc_wide tension, vsc_wide way, vsc_wide V, size_t place,
+VSC_INLINE void add_active(const observation *o, vsc_wide tension, vsc_wide way, vsc_wide V, size_t place,
                        const bool taken[VSC_WIDTH], vsc_totals *part)
 {
   vsc_ledger *ledger = o->ledger;
@@ -65,7 +65,7 @@ static void add_active(const observation *o, vsc_wide tension, vsc_wide way, vsc
 }
 
 // What one pack of frames shows: volume ratios, stretches.
-static void add_frames(const vsc_model *model, size_t k, vsc_wide V, const vsc_wide3 g[3],
+VSC_INLINE void add_frames(const vsc_model *model, size_t k, vsc_wide V, const vsc_wide3 g[3],
                        const bool taken[VSC_WIDTH], bool inverted[VSC_WIDTH], vsc_totals *part)
 {
   const vsc_wide J = vsc_pack_ratio(g), stretch = vsc_wide_sqrt(vsc_wide_dot(g[0], g[0]));
@@ -84,7 +84,7 @@ static void add_frames(const vsc_model *model, size_t k, vsc_wide V, const vsc_w
 }
 
 // What the frames of one pack of cells show: volume ratios, stretches, active tension.
-static void observe_frames(const observation *o, const vsc_patch *patch, size_t k, const vsc_pack_law *law,
+VSC_INLINE void observe_frames(const observation *o, const vsc_patch *patch, size_t k, const vsc_pack_law *law,
                            vsc_wide3 (*axes)[3], vsc_totals *part)
 {
   const vsc_model *model = o->model;
@@ -107,7 +107,7 @@ static void observe_frames(const observation *o, const vsc_patch *patch, size_t 
   for (int l = 0; l < VSC_WIDTH; l++) part->inverted += inverted[l];
 }
 
-static void add_energies(const vsc_pack_energies *energies, vsc_totals *part)
+VSC_INLINE void add_energies(const vsc_pack_energies *energies, vsc_totals *part)
 {
   for (int l = 0; l < VSC_WIDTH; l++) {
     part->axial += energies->axial[l];
@@ -138,7 +138,7 @@ static void observe_surfaces(const observation *o, const vsc_patch *patch, vsc_t
   }
 }
 
-static void observe_cells(const observation *o, const vsc_patch *patch, vsc_totals *part)
+VSC_CLONED static void observe_cells(const observation *o, const vsc_patch *patch, vsc_totals *part)
 {
   const vsc_model *model = o->model;
   const double *x = o->state->x, *v = o->state->v;

@@ -48,7 +48,7 @@ static slice slice_of(const vsc_model *model, size_t piece, bool behind)
 }
 
 // The three sweeps over the nodes are made of these two.
-static inline void drift_node(const motion *m, size_t n, vsc_wide a)
+VSC_INLINE void drift_node(const motion *m, size_t n, vsc_wide a)
 {
   vsc_wide *x = (vsc_wide *)m->state->x, *v = (vsc_wide *)m->state->v;
   // v <- v + dt/2 a;  x <- x + dt v
@@ -61,7 +61,7 @@ static inline void drift_node(const motion *m, size_t n, vsc_wide a)
   past[n] = a;
 }
 
-static inline vsc_wide kick_node(const motion *m, size_t n)
+VSC_INLINE vsc_wide kick_node(const motion *m, size_t n)
 {
   // a <- f / m;  v <- v + dt/2 a
   const double *force = m->state->force;
@@ -71,7 +71,7 @@ static inline vsc_wide kick_node(const motion *m, size_t n)
   return a;
 }
 
-static void drift(void *context, size_t piece, int thread)
+VSC_CLONED static void drift(void *context, size_t piece, int thread)
 {
   (void)thread;
   const motion *m = context;
@@ -81,7 +81,7 @@ static void drift(void *context, size_t piece, int thread)
   }
 }
 
-static void kick(void *context, size_t piece, int thread)
+VSC_CLONED static void kick(void *context, size_t piece, int thread)
 {
   (void)thread;
   const motion *m = context;
@@ -92,7 +92,7 @@ static void kick(void *context, size_t piece, int thread)
 }
 
 // The end of one step and the beginning of the next in one sweep.
-static void kick_and_drift(void *context, size_t piece, int thread)
+VSC_CLONED static void kick_and_drift(void *context, size_t piece, int thread)
 {
   (void)thread;
   const motion *m = context;
