@@ -36,6 +36,7 @@ static vsc_pack_law law_of(const vsc_material *material, const vsc_mixture *mixt
   memcpy(law.coupling, moduli.coupling, sizeof moduli.coupling);
   law.active_axial =
       law.springs.axial[0] + law.share * (material->active_stiffness - material->axial[0]);
+  law.others = law.springs.axial[0] - law.share * material->axial[0];
   return law;
 }
 

@@ -56,6 +56,7 @@ typedef struct vsc_pack_law {
   vsc_wide coupling[3];    // kPa
   vsc_wide viscosity;      // kPa ms
   vsc_wide active_axial;   // kPa
+  vsc_wide others;         // what inclusions add to the fibre's modulus, kPa
   vsc_wide volume_modulus, stabilization, element_modulus;
   vsc_wide share;  // of the own material: 1 without inclusions
 } vsc_pack_law;
@@ -89,7 +90,8 @@ VSC_INLINE vsc_wide vsc_active_tension(const vsc_material *material, const vsc_p
   }
   const vsc_wide passive = law->springs.axial[0], E = passive + a * (law->active_axial - passive);
   *way = stretch;
-  return E * (stretch - (1 - a * (1 - material->rest_stretch))) - passive * (stretch - 1);
+  const vsc_wide rest = vsc_shared_rest(a * (1 - material->rest_stretch), E, law->others);
+  return E * (stretch - rest) - passive * (stretch - 1);
 }
 
 #endif

@@ -130,8 +130,8 @@ VSC_INLINE vsc_mixture moduli_of(const vsc_patch_work *work, size_t k, bool comp
   return moduli;
 }
 
-// The springs of a pack at activation a.
-VSC_INLINE vsc_springs springs_of(const vsc_material *material, const vsc_mixture *m,
+// The springs of a pack at activation a; `composed`: inclusions may be among them.
+VSC_INLINE vsc_springs springs_of(const vsc_material *material, const vsc_mixture *m, bool composed,
                                   vsc_active_kind active, vsc_wide a)
 {
   vsc_springs law = {.rest_stretch = vsc_splat(1)};
@@ -140,9 +140,10 @@ VSC_INLINE vsc_springs springs_of(const vsc_material *material, const vsc_mixtur
     law.angular[i] = m->angular[i];
   }
   if (active == VSC_ACTIVE_SPRING) {
-    const vsc_wide own = m->share * a;
+    const vsc_wide own = m->share * a, contraction = a * (1 - material->rest_stretch);
     law.axial[0] += own * (material->active_stiffness - material->axial[0]);
-    law.rest_stretch -= a * (1 - material->rest_stretch);
+    law.rest_stretch = composed ? vsc_shared_rest(contraction, law.axial[0], m->axial[0] - m->share * material->axial[0])
+                                : 1 - contraction;
   }
   return law;
 }

@@ -213,7 +213,7 @@ VSC_INLINE void solid_stress(const vsc_patch_work *work, size_t k, const vsc_mix
   for (int a = 0; damping && a < 3; a++)
     along[a] = moduli->damping[a] * vsc_wide_dot(rate[a], axes.u[a]);
   const vsc_wide activation = activation_of(work, k);
-  const vsc_springs law = springs_of(material, moduli, material->active, activation);
+  const vsc_springs law = springs_of(material, moduli, true, material->active, activation);
   if (material->active == VSC_ACTIVE_TENSION)
     along[0] += moduli->share * activation * material->tension * axes.length[0];
   vsc_springs_stress(&law, &axes, along, P);

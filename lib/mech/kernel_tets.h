@@ -97,7 +97,7 @@ VSC_INLINE void pack_stress(const vsc_patch_work *work, size_t k, const vsc_wide
     along[a] = moduli.damping[a] * vsc_wide_dot(rate[a], frame.u[a]);
   vsc_wide activation = vsc_splat(0);
   if (active != VSC_ACTIVE_NONE) activation = activation_of(work, k);
-  const vsc_springs law = springs_of(work->material, &moduli, active, activation);
+  const vsc_springs law = springs_of(work->material, &moduli, composed, active, activation);
   // S += T f0 f0: P_f += T g_f
   if (active == VSC_ACTIVE_TENSION)
     along[0] += moduli.share * activation * work->material->tension * frame.length[0];

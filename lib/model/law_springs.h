@@ -52,6 +52,13 @@ typedef struct vsc_springs {
   vsc_wide rest_stretch;
 } vsc_springs;
 
+// r_f of fibre springs that contract by `contraction`, side by side with inclusions' that do not: E is the modulus of
+// both, `others` the inclusions' part of it; E (n - r_f) = (E - others) (n - 1 + contraction) + others (n - 1).
+VSC_INLINE vsc_wide vsc_shared_rest(vsc_wide contraction, vsc_wide E, vsc_wide others)
+{
+  return 1 - contraction * ((E - others) / vsc_select(E > 0.0, E, vsc_splat(1)));
+}
+
 // psi of the three axial springs; angular springs apart, so that a ledger can tell them.
 VSC_INLINE vsc_wide vsc_springs_axial_energy(const vsc_springs *law, const vsc_frame_axes *frame)
 {

@@ -113,7 +113,8 @@ VSC_INLINE void vsc_law_springs_strain(const vsc_material *material, const vsc_m
   if (material->active == VSC_ACTIVE_SPRING && !only_energy) {
     const vsc_wide part = moduli->share * activation;
     fibre += part * (material->active_stiffness - material->axial[0]);
-    rest -= activation * (1 - material->rest_stretch);
+    rest = vsc_shared_rest(activation * (1 - material->rest_stretch), fibre,
+                           moduli->axial[0] - moduli->share * material->axial[0]);
   }
   for (int a = 0; a < 3; a++) {
     vsc_add_axial(own[a], a == 0 ? fibre : moduli->axial[a], a == 0 ? rest : vsc_splat(1), e,
