@@ -114,6 +114,59 @@ static void equilibria_follow_the_loads_in_time(void **state)
   body_close(&body);
 }
 
+// A body that lies on springs all round has no reactions of supports: under a load that stays, the scale of forces is
+// that of the load and of the springs: once the body has come to rest a row takes no more than one iteration.
+static void springs_all_round_are_as_good_as_supports(void **state)
+{
+  (void)state;
+  small_body body;
+  vsc_selector faces[2] = {{.name = "all", .kind = VSC_SELECT_BOUNDARY},
+                           {.name = "top", .kind = VSC_SELECT_NODE_ARRAY, .array = "z1", .low = 1, .high = 1}};
+  vsc_robin_def bed = {.surface = "all", .stiffness = 0.1};
+  body_open(&body, block_of(3, 3, 3, 2, 0.2), 200);
+  body.definition.surfaces = faces;
+  body.definition.surface_count = 2;
+  body.definition.robins = &bed;
+  body.definition.robin_count = 1;
+  body.pressure = (vsc_pressure_def){.surface = "top", .peak = 1, .curve = vsc_default_curve(VSC_CURVE_CONSTANT)};
+  body.definition.pressures = &body.pressure;
+  body.definition.pressure_count = 1;
+  body.definition.solve.kind = VSC_SOLVE_EQUILIBRIUM;
+  body_build(&body);
+  must_solve_to(&body, 25);
+  vsc_newton *newton = body.state->solver;
+  assert_true(newton->iterations > 2);
+  must_solve_to(&body, 50);
+  const double second = newton->iterations;
+  must_solve_to(&body, 75);
+  must_solve_to(&body, 100);
+  assert_true(newton->iterations <= second + 2);
+  body_close(&body);
+}
+
+// Where nothing pulls yet, relaxation is at rest: what is left of forces is the rounding of positions.
+static void relaxation_rests_where_nothing_pulls(void **state)
+{
+  (void)state;
+  small_body body;
+  body_open(&body, block_of(3, 3, 3, 2, 0.2), 200);
+  body_hold(&body, "x0", 1, 1, 1);
+  body.material.active = (vsc_active_def){.kind = VSC_ACTIVE_TENSION, .tension = 15, .delay_unit = 1,
+                                          .curve = vsc_default_curve(VSC_CURVE_RAMP)};
+  body.material.active.curve.start = 30;
+  body.definition.solve.kind = VSC_SOLVE_EQUILIBRIUM;
+  body.definition.solve.method = VSC_STATICS_RELAXATION;
+  body_fibers(&body, (double[3]){1, 0, 0});
+  body_build(&body);
+  must_solve_to(&body, 20);
+  for (size_t i = 0; i < 4 * body.model->node_count; i++)
+    assert_close(body.state->x[i], body.model->rest[i], 0, 1e-12);
+  must_solve_to(&body, 100);
+  const double *end = body.state->x + 4 * body_node(&body, body.mesh->node_count - 1);
+  assert_true(end[0] < body.mesh->nodes[3 * (body.mesh->node_count - 1)] - 0.1);
+  body_close(&body);
+}
+
 // The stretch l of an incompressible body, m = l^-1/2 across: the pressure p = -E (m-1)/(m l) leaves the
 // sides free, and E (l-1)/l + T + p m^2/l = 0, by halving.
 static double incompressible_stretch(double E, double tension)
@@ -387,6 +440,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_free_block_takes_the_stretches_of_the_closed_form),
       cmocka_unit_test(equilibria_follow_the_loads_in_time),
+      cmocka_unit_test(springs_all_round_are_as_good_as_supports),
+      cmocka_unit_test(relaxation_rests_where_nothing_pulls),
       cmocka_unit_test(multipliers_keep_volumes),
       cmocka_unit_test(newton_converges_quadratically),
       cmocka_unit_test(equilibrium_does_not_depend_on_the_way),

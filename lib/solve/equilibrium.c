@@ -109,6 +109,7 @@ vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double u
   vsc_force(model, state->x, NULL, until, &state->scratch, state->force);
   vsc_linear_forget(newton->linear);
   vsc_newton_begin(newton, state->force);
+  vsc_newton_scale_by_loads(newton, state->x, until);
   while (done < 1) {
     const double next = done + increment > 1 - SHORTEST ? 1 : done + increment;
     statics s = {model, state, start + next * way};

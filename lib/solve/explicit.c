@@ -192,6 +192,11 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
                     "activation %.6g); "
                     "use `step: auto`, a smaller step, or `force: true` to see what happens",
                     model->step, stable, state->limit.step, active_step);
+  // what bodies are set in motion with must not change the volumes that they keep
+  if (model->kept.count > 0 && model->velocity != NULL) {
+    const vsc_status status = vsc_keep_volume_settle(model, state, stable, error);
+    if (status != VSC_OK) return status;
+  }
   state->limit.time = state->time;
   state->limit.interval = SHORTEST_TRUST;
   state->limit.first = state->limit.least = stable;

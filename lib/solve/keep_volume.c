@@ -318,9 +318,11 @@ vsc_status vsc_keep_volume(const vsc_model *model, vsc_state *state, double dt, 
 
 vsc_status vsc_keep_volume_settle(const vsc_model *model, vsc_state *state, double dt, vsc_error *error)
 {
+  vsc_status status = open_keeper(model, state, error);
+  if (status != VSC_OK) return status;
   keeper *k = state->keeper;
   find_gradients(model, k, state->x);
-  const vsc_status status = factorise(model, state, k, error);
+  status = factorise(model, state, k, error);
   if (status != VSC_OK) return status;
   double *change = k->right->x;
   for (size_t v = 0; v < model->kept.count; v++) {

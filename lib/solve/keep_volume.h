@@ -22,7 +22,7 @@
 vsc_status vsc_keep_volume(const vsc_model *model, vsc_state *state, double dt, bool first,
                            vsc_error *error);
 
-// To be called when a row of steps of dt (ms) has ended: takes from the velocities what would change the volumes,
+// To be called when a row of steps of dt (ms) has ended, and before the first: takes from the velocities what would change the volumes,
 //   v <- v - M^-1 g^T (g M^-1 g^T)^-1 g v.
 vsc_status vsc_keep_volume_settle(const vsc_model *model, vsc_state *state, double dt, vsc_error *error);
 

@@ -19,6 +19,13 @@ static void give_rate(const vsc_moved *moved, double rate, double *v)
       if (moved->motion[i] != 0) v[4 * (size_t)moved->nodes[k] + i] = rate * moved->motion[i];
 }
 
+// d2c/dt2, 1/ms^2, like the rate.
+static double acceleration_of(const vsc_model *model, const vsc_curve *curve, double time, double dt)
+{
+  const double at = curve->period > 0 || time + dt <= model->end_time ? time : time - dt;
+  return (vsc_curve_value(curve, at + dt) - 2 * vsc_curve_value(curve, at) + vsc_curve_value(curve, at - dt)) / (dt * dt);
+}
+
 static void add_forces(const vsc_moved *moved, const double *force, double sum[3])
 {
   for (int i = 0; i < 3; i++) sum[i] = 0;
@@ -42,6 +49,15 @@ void vsc_moving_begin_rates(const vsc_model *model, vsc_state *state, double dt)
     const vsc_curve *curve = &model->moved[s].curve;
     const double now = vsc_curve_value(curve, state->time);
     give_rate(&model->moved[s], (vsc_curve_value(curve, state->time + dt) - now) / dt, state->v);
+  }
+}
+
+void vsc_moving_end_rates(const vsc_model *model, vsc_state *state, double dt)
+{
+  for (size_t s = 0; s < model->moved_count; s++) {
+    const vsc_curve *curve = &model->moved[s].curve;
+    give_rate(&model->moved[s], vsc_moving_rate(model, curve, state->time, dt), state->v);
+    give_rate(&model->moved[s], acceleration_of(model, curve, state->time, dt), state->a);
   }
 }
 

@@ -20,6 +20,12 @@ void vsc_moving_begin_loaded(const vsc_model *model, vsc_state *state);
 // (ms), so that those of the trapezoidal rule do not swing about it for ever.
 void vsc_moving_begin_rates(const vsc_model *model, vsc_state *state, double dt);
 
+// The same at the end of each of their steps, of dt (ms): velocities and accelerations are those of the curve,
+//   v = motion . dc/dt,  a = motion . (c(t + dt) - 2 c(t) + c(t - dt)) / dt^2;
+// what Newmark's formulas make of a motion that begins within the run swings about it, with the trapezoidal rule
+// for ever.
+void vsc_moving_end_rates(const vsc_model *model, vsc_state *state, double dt);
+
 // To be called when the positions have drifted to state->time in a step of dt (ms): puts the nodes to
 // rest + motion . c(t) and gives them the velocity of the middle of the step that takes them there,
 //   v = motion . (c(t) - c(t - dt)) / dt,

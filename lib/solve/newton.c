@@ -7,6 +7,7 @@
 
 #include "base/mem.h"
 #include "mech/element.h"
+#include "mech/loads.h"
 #include "model/free_motions.h"
 #include "solve/incompressible.h"
 
@@ -122,6 +123,20 @@ void vsc_newton_begin(vsc_newton *newton, const double *force)
   vsc_kept_forget(newton->kept);
   newton->scale = whole_norm(newton->model, force);
   newton->floor = 0;
+}
+
+void vsc_newton_scale_by_loads(vsc_newton *newton, const double *x, double time)
+{
+  const vsc_model *model = newton->model;
+  double *force = newton->trial;
+  if (model->robin_count == 0) return;
+  memset(force, 0, 4 * model->node_count * sizeof *force);
+  vsc_loads_push(model, x, time, 1, force);
+  for (size_t i = 0; model->terms.gravity && i < 4 * model->node_count; i++) force[i] += model->weight[i];
+  newton->scale = fmax(newton->scale, whole_norm(model, force));
+  memset(force, 0, 4 * model->node_count * sizeof *force);
+  vsc_loads_hold(model, x, NULL, force);
+  newton->scale = fmax(newton->scale, whole_norm(model, force));
 }
 
 // Rounding alone in |r|: positions are rounded by ROUNDING of the body's size, and the stiffest of the

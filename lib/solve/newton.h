@@ -60,6 +60,10 @@ void vsc_newton_free(vsc_newton *newton);  // NULL is fine
 // solutions for kept volumes start.
 void vsc_newton_begin(vsc_newton *newton, const double *force);
 
+// The same where a body lies on surfaces' springs, which are no reactions of supports: the scale is no smaller than what
+// these and the loads on surfaces push with at positions x (node_count x 4, mm) and `time` (ms), and the weight.
+void vsc_newton_scale_by_loads(vsc_newton *newton, const double *x, double time);
+
 // Solves from x (node_count x 4), which becomes the solution, to |r| <= tolerance x the scale of
 // forces and kept volumes to VSC_KEPT_BALANCE; newton->kept has their pressures, before and after. `time` and
 // `load` go into the rows. VSC_NUMERICAL, with plain words why, when it does not converge; x is then undefined.

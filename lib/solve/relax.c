@@ -9,7 +9,10 @@
 #include "mech/prony.h"
 #include "mech/step_limit.h"
 #include "solve/moving.h"
+#include "solve/newton.h"
 
+// Forces that the rounding of positions makes, as a part of a node's stiffness times the body's size.
+#define ROUNDING 4e-16
 enum { MOST_STEPS = 200000, RAMP_STEPS = 200, REFRESH = 200, REFRESH_IN_RAMP = 20, ITERATIONS = 8 };
 
 // The model with masses for relaxation; everything else is the model's own.
@@ -17,6 +20,7 @@ typedef struct relaxer {
   vsc_model model;
   double *mass, *inverse_mass;
   double *before;  // forces of the step before
+  double floor;    // rounding alone in |r|, mN
 } relaxer;
 
 static void release(void *solver)
@@ -41,6 +45,9 @@ vsc_status vsc_relax_start(const vsc_model *model, vsc_state *state, vsc_error *
   for (size_t n = 0; n < model->node_count; n++)
     for (size_t i = 4 * n; i < 4 * n + 4; i++)
       if (model->inverse_mass[i] != 0) r->inverse_mass[i] = 1 / r->mass[n];
+  double sum = 0;
+  for (size_t n = 0; n < model->node_count; n++) sum += r->mass[n] * r->mass[n];
+  r->floor = ROUNDING * vsc_body_size(model) * sqrt(sum);
   r->model = *model;
   r->model.mass = r->mass;
   r->model.inverse_mass = r->inverse_mass;
@@ -109,7 +116,7 @@ vsc_status vsc_relax_to(const vsc_model *model, vsc_state *state, double until, 
     scale = fmax(scale, square(model, state->force, true));
     const double rest = square(model, state->force, false);
     if (!isfinite(rest)) break;
-    if (k < RAMP_STEPS || rest > tolerance * tolerance * scale) continue;
+    if (k < RAMP_STEPS || rest > fmax(tolerance * tolerance * scale, r->floor * r->floor)) continue;
     memset(state->v, 0, 4 * model->node_count * sizeof *state->v);
     state->time = until;
     state->steps++;
