@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mech/mass_matrix.h"
 
+#include <string.h>
+
 #include "base/mem.h"
 #include "mech/tangent.h"
 #include "model/masses.h"
@@ -22,9 +24,11 @@ static double element_mass(const vsc_model *model, const vsc_patch *patch, size_
   return sum;
 }
 
-bool vsc_mass_matrix(const vsc_model *model, const vsc_block_matrix *pattern, double **entries)
+// Takes rho int N_i N_j dV of nodes a and b of the model, i >= j.
+typedef void mass_sink(void *context, uint32_t a, uint32_t b, double mass);
+
+static void for_masses(const vsc_model *model, mass_sink *sink, void *context)
 {
-  if (!VSC_NEW(*entries, pattern->start[model->node_count])) return false;
   for (size_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];
     const bool triangles = patch->family == VSC_TRIANGLES;
@@ -39,12 +43,50 @@ bool vsc_mass_matrix(const vsc_model *model, const vsc_block_matrix *pattern, do
           for (int j = 0; j <= i; j++) {
             const uint32_t a = vsc_node_of(model, patch, node[i][l]);
             const uint32_t b = vsc_node_of(model, patch, node[j][l]);
-            (*entries)[vsc_block_matrix_find(pattern, a > b ? a : b, a > b ? b : a)] +=
-                density * element_mass(model, patch, k, i, j, l);
+            sink(context, a, b, density * element_mass(model, patch, k, i, j, l));
           }
       }
   }
+}
+
+typedef struct entries_sum {
+  const vsc_block_matrix *pattern;
+  double *entries;
+} entries_sum;
+
+static void add_entry(void *context, uint32_t a, uint32_t b, double mass)
+{
+  const entries_sum *sum = context;
+  sum->entries[vsc_block_matrix_find(sum->pattern, a > b ? a : b, a > b ? b : a)] += mass;
+}
+
+bool vsc_mass_matrix(const vsc_model *model, const vsc_block_matrix *pattern, double **entries)
+{
+  if (!VSC_NEW(*entries, pattern->start[model->node_count])) return false;
+  entries_sum sum = {pattern, *entries};
+  for_masses(model, add_entry, &sum);
   return true;
+}
+
+typedef struct product {
+  const double *v;
+  double *y;
+} product;
+
+static void add_product(void *context, uint32_t a, uint32_t b, double mass)
+{
+  const product *p = context;
+  for (size_t i = 0; i < 3; i++) {
+    p->y[4 * (size_t)a + i] += mass * p->v[4 * (size_t)b + i];
+    if (a != b) p->y[4 * (size_t)b + i] += mass * p->v[4 * (size_t)a + i];
+  }
+}
+
+void vsc_consistent_masses_times(const vsc_model *model, const double *v, double *y)
+{
+  product p = {v, y};
+  memset(y, 0, 4 * model->node_count * sizeof *y);
+  for_masses(model, add_product, &p);
 }
 
 void vsc_tangent_add_masses(const vsc_model *model, vsc_tangent *tangent, double factor)

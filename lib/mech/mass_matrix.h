@@ -11,4 +11,7 @@
 // the points of their frames. Triangles of membranes give thickness times int rho N_i N_j dA. False when memory is short.
 bool vsc_mass_matrix(const vsc_model *model, const vsc_block_matrix *pattern, double **entries);
 
+// y = M v of the same matrix, without it (node_count x 4; mg mm/ms of velocities).
+void vsc_consistent_masses_times(const vsc_model *model, const double *v, double *y);
+
 #endif

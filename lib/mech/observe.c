@@ -12,6 +12,7 @@
 #include "mech/energies.h"
 #include "mech/force.h"
 #include "mech/loads.h"
+#include "mech/mass_matrix.h"
 #include "mech/prony.h"
 #include "model/law_volume.h"
 
@@ -227,14 +228,19 @@ static void add_part(const vsc_totals *part, vsc_totals *totals)
 
 static void observe_nodes(const vsc_model *model, const vsc_state *state, vsc_totals *totals)
 {
+  // p = M v
+  const bool consistent = model->masses == VSC_MASS_CONSISTENT;
+  double *momenta = state->scratch.trial;
+  if (consistent) vsc_consistent_masses_times(model, state->v, momenta);
   for (size_t n = 0; n < model->node_count; n++) {
     const double *x = state->x + 4 * n, *v = state->v + 4 * n, m = model->mass[n];
-    double moment[3];
-    vsc_cross(x, v, moment);
-    totals->kinetic += 0.5 * m * vsc_dot(v, v);
+    double p[3] = {m * v[0], m * v[1], m * v[2]}, moment[3];
+    if (consistent) memcpy(p, momenta + 4 * n, sizeof p);
+    vsc_cross(x, p, moment);
+    totals->kinetic += 0.5 * vsc_dot(p, v);
     for (int i = 0; i < 3; i++) {
-      totals->momentum[i] += m * v[i];
-      totals->angular_momentum[i] += m * moment[i];
+      totals->momentum[i] += p[i];
+      totals->angular_momentum[i] += moment[i];
       if (model->terms.gravity)
         totals->gravity_energy -= model->weight[4 * n + (size_t)i] * (x[i] - model->rest[4 * n + i]);
     }
