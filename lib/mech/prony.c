@@ -45,13 +45,13 @@ static vsc_law_input law_of(const vsc_model *model, const vsc_material *material
                          .moduli = vsc_moduli_or(material, NULL)};
 }
 
-static vsc_wide share_of(const vsc_model *model, const vsc_patch *patch, size_t k)
+VSC_INLINE vsc_wide share_of(const vsc_model *model, const vsc_patch *patch, size_t k)
 {
   return patch->mixed ? vsc_pack_mixture(model, patch, k)->share : vsc_splat(1);
 }
 
 // S_0 of the own material's share, with J p C^-1 of p = -m/J: (C^-1)_ab = cof_a . cof_b / J^2.
-static void passive_stress(const vsc_law_input *in, vsc_wide share, const vsc_wide3 g[3],
+VSC_INLINE void passive_stress(const vsc_law_input *in, vsc_wide share, const vsc_wide3 g[3],
                            const vsc_wide e[6], vsc_wide S[6])
 {
   vsc_law_answer answer;
@@ -85,7 +85,7 @@ static branch_step step_of(const vsc_material *material, double dt)
 }
 
 // H = sum_i (e^(-dt/tau_i) h_i - g_i w_i S_0 before) of one frame.
-static void past_of(const vsc_material *material, const branch_step *step, const vsc_wide *memory, vsc_wide H[6])
+VSC_INLINE void past_of(const vsc_material *material, const branch_step *step, const vsc_wide *memory, vsc_wide H[6])
 {
   for (int k = 0; k < 6; k++) {
     H[k] = vsc_splat(0);
@@ -96,7 +96,7 @@ static void past_of(const vsc_material *material, const branch_step *step, const
 
 // Carries one frame on to strain e and stress S_0; returns (S - S_0) : dE of the step, by the
 // trapezoidal rule.
-static vsc_wide carry_frame(const vsc_material *material, const branch_step *step,
+VSC_INLINE vsc_wide carry_frame(const vsc_material *material, const branch_step *step,
                             const vsc_wide e[6], const vsc_wide S[6], vsc_wide *memory)
 {
   vsc_wide work = vsc_splat(0);
@@ -122,7 +122,7 @@ typedef struct carrying {
   double dt;
 } carrying;
 
-static void carry_patch(void *context, size_t p, int thread)
+VSC_CLONED static void carry_patch(void *context, size_t p, int thread)
 {
   (void)thread;
   const carrying *c = context;
@@ -175,7 +175,7 @@ double vsc_prony_past(const vsc_model *model, const vsc_patch *patch, size_t k, 
 }
 
 // f_i = -sum_k D_ki V sum_a P_a T_ak of stress S on frame q of four cells with axes g.
-static void add_force(const vsc_model *model, const vsc_patch *patch, size_t k, int q, const vsc_wide3 g[3],
+VSC_INLINE void add_force(const vsc_model *model, const vsc_patch *patch, size_t k, int q, const vsc_wide3 g[3],
                       const vsc_wide S[6], double *f)
 {
   const uint16_t(*node)[VSC_WIDTH] = vsc_pack_nodes(model, patch, k);
@@ -197,7 +197,7 @@ static void add_force(const vsc_model *model, const vsc_patch *patch, size_t k, 
     }
 }
 
-void vsc_prony_force(const vsc_model *model, const vsc_patch *patch, const double *prony, double dt,
+VSC_CLONED void vsc_prony_force(const vsc_model *model, const vsc_patch *patch, const double *prony, double dt,
                      const double *x, double *f)
 {
   const vsc_material *material = &model->materials[patch->material];
