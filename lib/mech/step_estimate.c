@@ -6,17 +6,20 @@
 #include "mech/force.h"
 #include "mech/step_limit.h"
 
+// What the eigenvalue may be too small by.
+#define ALLOWANCE 1.1
 // Noise in each estimate's first vector, as a part of its length.
 #define NOISE 0.5
-// Iterations go on while one raises the eigenvalue by more than this factor; from where a first estimate may end up to
-// MOST_ITERATIONS, by more than the second.
+// Iterations go on while one raises the eigenvalue by more than this factor, from ENOUGH to MOST_ITERATIONS by more
+// than the second.
 #define RISING 1.001
 #define RISING_LATE 1.003
-enum { ENOUGH = 16, MOST_ITERATIONS = 40 };
-// By how much the 2/dt of damping may be off before it is set right: not knowing, and knowing, how the eigenvalue
-// changes with it.
+enum { ENOUGH = 14, MOST_ITERATIONS = 40 };
+// By how much the 2/dt of damping may be off before it is set right, not knowing and knowing how the eigenvalue changes
+// with it; but not in the first iterations, in which x is mostly noise.
 #define RATE_ERROR 0.02
 #define KNOWN_RATE_ERROR 0.05
+enum { NOISY_ITERATIONS = 2 };
 // Nodes go in pieces that depend on their number alone, so that sums are the same on any number of threads.
 enum { NODES_PER_PIECE = 256, MOST_PIECES = 64, SUMS = 6 };
 
@@ -191,7 +194,7 @@ static bool choose(search *s, bool first)
   double sums[SUMS];
   add_up(s, sums);
   const double p = alone ? 0 : sums[5], rest = sums[0] - p * p;
-  if (!(rest > 0.5 * sums[0])) return false;
+  if (rest <= 0.5 * sums[0]) return false;
   const double length = sqrt(rest), e = (sums[1] - p * (2 * sums[3] - p * s->quotient)) / rest;
   const double b = (sums[3] - p * s->quotient) / length, product = (sums[4] - p * s->square) / length;
   const double square = (sums[2] - p * (2 * sums[4] - p * s->square)) / rest;
@@ -226,12 +229,12 @@ static bool improve(search *s, bool first)
 }
 
 // The step of the eigenvalue, which with damping depends on it: with what is known of that
-//   lambda = |A x| + slope (2/step - rate),  1.1 lambda step^2 = 4 safety^2.
+//   lambda = |A x| + slope (2/step - rate),  ALLOWANCE lambda step^2 = 4 safety^2.
 static double step_of(const search *s)
 {
-  const double rest = fmax(sqrt(s->square) - s->slope * s->rate, 0), allowed = 2 * s->model->safety;
-  const double c = 1.1 * s->slope;
-  return allowed * allowed / (c + sqrt(c * c + 1.1 * rest * allowed * allowed));
+  const double rest = fmax(sqrt(s->square) - s->slope * s->rate, 0), way = 2 * s->model->safety;
+  const double c = ALLOWANCE * s->slope;
+  return way * way / (c + sqrt(c * c + ALLOWANCE * rest * way * way));
 }
 
 // C x by a difference of forces, and its products.
@@ -265,10 +268,11 @@ static void shift_rate(void *context, size_t piece, int thread)
   s->parts[piece][0] = largest_of(most);
 }
 
-// Brings the rate to that of the step, where it is too far from it: d lambda/d rate = <A x, C x>/|A x|.
-static void follow_step(search *s)
+// Brings the rate to that of the step, where it is too far from it: d|A x|/d rate = <A x, C x>/|A x|.
+static void follow_step(search *s, int iteration)
 {
   const double error = fabs(2 / step_of(s) - s->rate);
+  if (s->rate > 0 && iteration < NOISY_ITERATIONS) return;
   if (error <= (s->slope > 0 ? KNOWN_RATE_ERROR : RATE_ERROR) * s->rate) return;
   double sums[SUMS];
   vsc_force(s->model, s->state->x, (const double *)s->x, s->time, &s->state->scratch, (double *)s->moved);
@@ -338,12 +342,12 @@ void vsc_limit_refresh(const vsc_model *model, vsc_state *state, double time, in
                   (i < MOST_ITERATIONS && limit->eigenvalue > (i < enough ? RISING : RISING_LATE) * before); i++) {
     before = limit->eigenvalue;
     if (!(s.size > 0) || !improve(&s, i == 0)) break;
-    if (model->terms.damping && s.square > 0) follow_step(&s);
     limit->eigenvalue = sqrt(s.square);
-    if (!(limit->eigenvalue > 0)) continue;
+    if (!(s.square > 0)) continue;
+    if (model->terms.damping) follow_step(&s, i);
     limit->step = step_of(&s);
-    limit->eigenvalue = 4 * model->safety * model->safety / (1.1 * limit->step * limit->step);
+    limit->eigenvalue = 4 * model->safety * model->safety / (ALLOWANCE * limit->step * limit->step);
   }
-  if (limit->eigenvalue > 0) pass(&s, keep_image);
+  if (s.square > 0) pass(&s, keep_image);
   limit->refreshes++;
 }
