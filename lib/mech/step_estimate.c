@@ -101,8 +101,8 @@ VSC_INLINE double largest_of(vsc_wide a)
   return fmax(fmax(a[0], a[1]), fmax(a[2], a[3]));
 }
 
-// The first d: x + a random one of NOISE times its length (any length when there is none yet): what becomes the stiffest
-// elsewhere must not have to grow from nothing.
+// The first d: x + a random one of NOISE times its length (any length when there is none yet): what becomes the
+// stiffest elsewhere must not have to grow from nothing.
 static void stir(search *s)
 {
   const vsc_model *model = s->model;

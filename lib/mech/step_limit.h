@@ -24,7 +24,7 @@
 void vsc_limit_refresh(const vsc_model *model, vsc_state *state, double time, int iterations);
 
 // The iterations after which an estimate from nothing may end: so many that a mode which is a tenth stiffer than all
-// others, of one element among a million, has grown from its part in a random vector.
+// others, of one element among a hundred thousand, has grown from its part in a random vector.
 int vsc_limit_enough(const vsc_model *model);
 
 // An upper bound of lambda at rest without damping that needs no iteration, with the element behind it:
