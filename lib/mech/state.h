@@ -20,7 +20,7 @@ typedef struct vsc_limit {
   double least;       // the shortest that any estimate has allowed, ms
   double span;        // time gone through in steps that were allowed when they were taken, ms
   double caution;     // part of the allowed step that is taken: 1, but where energy did not balance with that
-  double *mode;       // node_count x 4: the eigenvector so far; owned
+  double *mode;       // node_count x 4: the eigenvector so far, of length 1 in the mass norm; owned
 } vsc_limit;
 
 // Memory of the computation, rewritten at each use.
@@ -37,7 +37,8 @@ typedef struct vsc_scratch {
   bool still_known;        // whether these have what patches that are still give to them
   // smoothed tets: F of each slot, [slot][column][4], dF/dt (with damping), and P_e of each edge likewise, kPa
   double *gradient, *rate, *edge_stress;
-  double *predicted;       // node_count x 4: velocity at the end of the step, when there is damping
+  double *predicted;       // node_count x 4: velocity at the end of the step, when there is damping; between steps
+                           // the mode's image of the step estimate
   const double *prony;      // the state's: branches of Prony series
   double prony_step;        // length of the step in which forces and tangents carry branches on to where they
                             // are taken, ms: 0 but while an implicit step is solved; equilibria: infinite
@@ -45,7 +46,7 @@ typedef struct vsc_scratch {
                             // solve.incompressible
   double *pack_multiplier;  // pack_count x 4: the same of each element that shares its volume among its
                             // frames
-  double *trial;  // node_count x 4 x 3: positions, velocities and forces of the step estimate
+  double *trial;  // node_count x 4 x 3: positions, forces and velocities (or the mode's image) of the step estimate
 } vsc_scratch;
 
 // How a node touches obstacles. One that leaves still lies on an obstacle, which no longer stops it.

@@ -12,10 +12,20 @@
 // dt^2 k + 2 dt c <= 4, that is for dt = 2 / sqrt(lambda): of a mode of stiffness k and damping c the steps multiply
 // by the roots z of
 //   (z - 1)^2 (z^2 + dt c (z + 1)/4) + dt^2 k z^3 + dt c z^2 (z - 1) = 0,
-// the first of which leaves the unit circle at z = -1. (With v + dt/2 a it would be dt^2 k + 4 dt c <= 4.) Power
-// iteration on differences of forces, `iterations` of them and more while the eigenvalue rises, from the vector of the last estimate,
-// stirred with noise: else a mode that becomes the stiffest elsewhere would be seen too late.
+// the first of which leaves the unit circle at z = -1. (With v + dt/2 a it would be dt^2 k + 4 dt c <= 4.)
+// Images under the operator are differences of forces: `iterations` of them, more while the eigenvalue rises, and with
+// damping one each time that dt has changed too much. Each image is of the way in which the quotient <x, A x>/<x, x>
+// of the mass norm is raised next, conjugate to the one before (conjugate gradients: as good as Lanczos's method, whose
+// eigenvalue after k images is about that of power iteration after k^2); of law PAPER, whose stiffness is not
+// symmetric, that of the vector itself (power iteration). What is taken for lambda is |A x|/|x|, which is below it.
+// It goes on from the vector of the last estimate, stirred with noise: else a mode that becomes the stiffest elsewhere
+// would be seen too late. Changes limit.mode, limit.eigenvalue, limit.step, limit.refreshes, the state's force and
+// scratch.
 void vsc_limit_refresh(const vsc_model *model, vsc_state *state, double time, int iterations);
+
+// The iterations after which an estimate from nothing may end: so many that a mode which is a tenth stiffer than all
+// others, of one element among a hundred thousand, has grown from its part in a random vector.
+int vsc_limit_enough(const vsc_model *model);
 
 // An upper bound of lambda at rest without damping that needs no iteration, with the element behind it:
 //   lambda <= max_e sum_{i in e} D_i / M_i,  D_i = sum_e V (K + A) |B_i|^2

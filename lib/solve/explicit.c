@@ -19,7 +19,7 @@
 enum { TRUSTED_STEPS = 128 };  // or as long as these take: an estimate costs as much as five
 // A stable step below this part of the first one belongs to a body that is torn or crushed.
 #define COLLAPSE 1e-3
-enum { FIRST_ITERATIONS = 40, WARM_ITERATIONS = 4, NODES_PER_PIECE = 256, MOST_TURNS = 20 };
+enum { WARM_ITERATIONS = 4, NODES_PER_PIECE = 256, MOST_TURNS = 20 };
 
 typedef struct motion {
   const vsc_model *model;
@@ -178,9 +178,9 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
 {
   vsc_supports_place(model, state->time, 1, state->x);
   const double busiest = busiest_time(model, state);
-  vsc_limit_refresh(model, state, busiest, FIRST_ITERATIONS);
+  vsc_limit_refresh(model, state, busiest, vsc_limit_enough(model));
   const double active_step = state->limit.step;
-  if (busiest != state->time) vsc_limit_refresh(model, state, state->time, FIRST_ITERATIONS);
+  if (busiest != state->time) vsc_limit_refresh(model, state, state->time, vsc_limit_enough(model));
   const double stable = fmin(active_step, state->limit.step);
   if (!(stable > 0))
     return vsc_fail(error, VSC_NUMERICAL,
