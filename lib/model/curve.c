@@ -93,6 +93,28 @@ static bool is_driven(const vsc_curve_def *d)
   return d->kind == VSC_CURVE_BESTEL || d->kind == VSC_CURVE_BESTEL_PRESSURE;
 }
 
+// Behind this a driver only falls, ms.
+static double driven_until(const vsc_curve_def *d)
+{
+  return d->stop + 10 * d->width;
+}
+
+// Formulas go from 0 to 1, the others as their points and their equation say.
+static double find_range(const vsc_curve_def *d, const vsc_curve *curve)
+{
+  if (d->kind == VSC_CURVE_CONSTANT) return 0;
+  if (d->kind != VSC_CURVE_TABLE && !is_driven(d)) return 1;
+  const double *values = d->kind == VSC_CURVE_TABLE ? d->values : curve->values;
+  double count = d->kind == VSC_CURVE_TABLE ? (double)d->point_count : (double)curve->intervals + 1;
+  if (is_driven(d) && !(d->period > 0)) count = fmin(count, ceil(driven_until(d) / curve->spacing));
+  double low = values[0], high = values[0];
+  for (size_t k = 1; (double)k < count; k++) {
+    low = fmin(low, values[k]);
+    high = fmax(high, values[k]);
+  }
+  return high - low;
+}
+
 // A table's places do not depend on when the run ends, so that a run can be resumed to a later end.
 static void place_table(const vsc_curve_def *d, double end_time, vsc_curve *curve)
 {
@@ -107,6 +129,7 @@ static void place_table(const vsc_curve_def *d, double end_time, vsc_curve *curv
     curve->spacing = SPACING;
     while (end_time / curve->spacing > MOST_INTERVALS) curve->spacing *= 2;
     while (end_time / curve->spacing < INTERVALS_OF_PERIOD && curve->spacing > 0x1p-40) curve->spacing /= 2;
+    if (is_driven(d)) end_time = fmax(end_time, driven_until(d));
     curve->intervals = (size_t)fmax(ceil(end_time / curve->spacing), 1);
   }
 }
@@ -124,12 +147,8 @@ static uint64_t hash_definition(const vsc_curve_def *d)
   return vsc_hash(hash, d->values, d->point_count * sizeof *d->values);
 }
 
-vsc_status vsc_curve_build(const vsc_curve_def *d, double end_time, vsc_curve *curve,
-                           vsc_error *error)
+static vsc_status tabulate(const vsc_curve_def *d, vsc_curve *curve, vsc_error *error)
 {
-  *curve = (vsc_curve){.period = d->period, .hash = hash_definition(d)};
-  place_table(d, end_time, curve);
-  if (!VSC_NEW(curve->values, curve->intervals + 1)) return vsc_fail_memory(error, "a curve");
   if (d->kind == VSC_CURVE_TABLE) return tabulate_points(d, curve, error);
   if (is_driven(d))
     return vsc_curve_drive(d, curve->spacing, curve->intervals, curve->values, error);
@@ -137,6 +156,17 @@ vsc_status vsc_curve_build(const vsc_curve_def *d, double end_time, vsc_curve *c
   for (size_t k = 0; k <= curve->intervals; k++)
     curve->values[k] = analytic_value(d, curve->spacing * (double)k) / peak;
   return VSC_OK;
+}
+
+vsc_status vsc_curve_build(const vsc_curve_def *d, double end_time, vsc_curve *curve,
+                           vsc_error *error)
+{
+  *curve = (vsc_curve){.period = d->period, .hash = hash_definition(d)};
+  place_table(d, end_time, curve);
+  if (!VSC_NEW(curve->values, curve->intervals + 1)) return vsc_fail_memory(error, "a curve");
+  const vsc_status status = tabulate(d, curve, error);
+  if (status == VSC_OK) curve->range = find_range(d, curve);
+  return status;
 }
 
 void vsc_curve_free(vsc_curve *curve)

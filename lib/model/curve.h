@@ -14,6 +14,7 @@ typedef struct vsc_curve {
   double period;   // ms; 0: not periodic, flat behind the table
   double spacing;  // ms between two values
   size_t intervals;
+  double range;    // between its smallest value and its largest, wherever the table ends; 0: a constant
   double *values;  // intervals + 1, owned
   uint64_t hash;   // of the definition, which does not know when the run ends
 } vsc_curve;
