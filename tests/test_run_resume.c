@@ -287,6 +287,43 @@ static void test_other_outputs_are_no_other_model(void **state)
   assert_string_equal(summary("more", "state_hash"), summary("marked", "state_hash"));
 }
 
+// The scene as understood lies in the run's own folder: a run may be resumed by it.
+static void test_resumed_by_its_own_scene(void **state)
+{
+  (void)state;
+  must("$V run block.yaml -o own --stop '8 ms' && $V run own/scene.yaml -q -o own --resume");
+  assert_string_equal(summary("own", "state_hash"), summary("whole", "state_hash"));
+  assert_same_files("own/signals.csv", "whole/signals.csv");
+}
+
+// A run whose files would lie over those that it is made of is refused before anything is touched.
+static void test_inputs_are_spared(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *make, *run, *file;
+  } cases[] = {
+      {"cp block.yaml mine/scene.yaml", "mine/scene.yaml", "mine/scene.yaml: "},
+      {"cp block.yaml mine/summary.json", "mine/summary.json --resume", "mine/summary.json: "},
+      {"cp block.vtu mine/reference.vtu", "block.yaml --set mesh.file=mine/reference.vtu", "mine/reference.vtu: "},
+      {"cp block.vtu mine/a.vtu && ln mine/a.vtu mine/convergence.csv", "block.yaml --set mesh.file=mine/a.vtu", "mine/a.vtu: "},
+      {"mkdir mine/frames && cp block.vtu mine/frames/", "block.yaml --set mesh.file=mine/frames/block.vtu", "mine/frames/block.vtu: "},
+      {"printf '0,0\\n20,1\\n' >mine/signals.csv",
+       "block.yaml --set 'pressures[0].curve={kind: table, file: mine/signals.csv, time_unit: ms}'", "mine/signals.csv: "},
+  };
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    char command[400];
+    snprintf(command, sizeof command, "rm -rf mine before && mkdir mine && cp block.vtu mine/ && %s && cp -r mine before", cases[k].make);
+    must(command);
+    snprintf(command, sizeof command, "$V run -q -o mine %s", cases[k].run);
+    assert_int_equal(shell(command), 2);
+    assert_int_equal(line_count(complained), 1);
+    assert_holds(complained, cases[k].file);
+    assert_holds(complained, "choose another folder than mine with -o");
+    must("diff -r mine before");
+  }
+}
+
 static void test_no_checkpoint(void **state)
 {
   (void)state;
@@ -365,6 +402,8 @@ int main(void)
       cmocka_unit_test(test_lost_files),
       cmocka_unit_test(test_changed_scene_is_refused),
       cmocka_unit_test(test_other_outputs_are_no_other_model),
+      cmocka_unit_test(test_resumed_by_its_own_scene),
+      cmocka_unit_test(test_inputs_are_spared),
       cmocka_unit_test(test_no_checkpoint),
       cmocka_unit_test(test_new_run_in_an_old_folder),
       cmocka_unit_test(test_failing_run),

@@ -173,7 +173,8 @@ static vsc_status unload(vsc_job *job, vsc_error *error)
 static vsc_status start(vsc_job *job, vsc_error *error)
 {
   vsc_problem *problem = job->problem;
-  vsc_status status = problem->scene->prestress.loaded ? unload(job, error) : VSC_OK;
+  vsc_status status = vsc_job_spare_inputs(job, error);
+  if (status == VSC_OK && problem->scene->prestress.loaded) status = unload(job, error);
   if (status == VSC_OK) status = vsc_problem_start(problem, &job->state, error);
   if (status == VSC_OK && problem->model->cycle > 0)
     status = vsc_cycle_begin(problem->model, job->state, &job->cycle, error);
