@@ -306,14 +306,17 @@ static void test_inputs_are_spared(void **state)
       {"cp block.yaml mine/scene.yaml", "mine/scene.yaml", "mine/scene.yaml: "},
       {"cp block.yaml mine/summary.json", "mine/summary.json --resume", "mine/summary.json: "},
       {"cp block.vtu mine/reference.vtu", "block.yaml --set mesh.file=mine/reference.vtu", "mine/reference.vtu: "},
-      {"cp block.vtu mine/a.vtu && ln mine/a.vtu mine/convergence.csv", "block.yaml --set mesh.file=mine/a.vtu", "mine/a.vtu: "},
-      {"mkdir mine/frames && cp block.vtu mine/frames/", "block.yaml --set mesh.file=mine/frames/block.vtu", "mine/frames/block.vtu: "},
+      {"cp block.vtu mine/a.vtu && ln mine/a.vtu mine/convergence.csv", "block.yaml --set mesh.file=mine/a.vtu",
+       "mine/a.vtu: "},
+      {"mkdir mine/frames && cp block.vtu mine/frames/", "block.yaml --set mesh.file=mine/frames/block.vtu",
+       "mine/frames/block.vtu: "},
       {"printf '0,0\\n20,1\\n' >mine/signals.csv",
        "block.yaml --set 'pressures[0].curve={kind: table, file: mine/signals.csv, time_unit: ms}'", "mine/signals.csv: "},
   };
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     char command[400];
-    snprintf(command, sizeof command, "rm -rf mine before && mkdir mine && cp block.vtu mine/ && %s && cp -r mine before", cases[k].make);
+    snprintf(command, sizeof command, "rm -rf mine before && mkdir mine && cp block.vtu mine/ && %s && cp -r mine before",
+             cases[k].make);
     must(command);
     snprintf(command, sizeof command, "$V run -q -o mine %s", cases[k].run);
     assert_int_equal(shell(command), 2);
@@ -322,6 +325,23 @@ static void test_inputs_are_spared(void **state)
     assert_holds(complained, "choose another folder than mine with -o");
     must("diff -r mine before");
   }
+}
+
+// Rows of other columns do not go on in the same table.
+static void test_other_columns_are_refused(void **state)
+{
+  (void)state;
+  must("rm -rf kept && cp -r early kept");
+  assert_int_equal(shell("$V run block.yaml -q -o early --resume --set 'output.cavities=[]'"), 2);
+  assert_holds(complained, "early/signals.csv: its columns are not those of this scene: it has cavity_skin [ml] besides; resume");
+  assert_int_equal(shell("$V run block.yaml -q -o early --resume --set 'output.cavities=[end]' "
+                         "--set 'output.points=[{name: tip, at: [20 mm, 5 mm, 5 mm]}]'"), 2);
+  assert_int_equal(line_count(complained), 1);
+  assert_holds(complained, ": it lacks cavity_end [ml], it has cavity_skin [ml] besides; resume with the outputs");
+  must("sed -i '1s/step .ms.,cavity_skin .ml./cavity_skin [ml],step [ms]/' early/signals.csv && cp early/signals.csv kept/");
+  assert_int_equal(shell("$V run block.yaml -q -o early --resume"), 2);
+  assert_holds(complained, ": another order; resume");
+  must("diff -r early kept");  // nothing was touched
 }
 
 static void test_no_checkpoint(void **state)
@@ -405,6 +425,7 @@ int main(void)
       cmocka_unit_test(test_resumed_by_its_own_scene),
       cmocka_unit_test(test_inputs_are_spared),
       cmocka_unit_test(test_no_checkpoint),
+      cmocka_unit_test(test_other_columns_are_refused),
       cmocka_unit_test(test_new_run_in_an_old_folder),
       cmocka_unit_test(test_failing_run),
   };

@@ -114,8 +114,12 @@ static vsc_status open_watch(vsc_job *job, double keep_until, vsc_error *error)
 // state is read first with a watch on no file.
 static vsc_status resume(vsc_job *job, vsc_error *error)
 {
+  char path[VSC_PATH];
+  vsc_job_path(job, "signals.csv", path);
   vsc_status status = vsc_watch_open(job->problem, "/dev/null", -1, &job->watch, error);
   if (status == VSC_OK) status = vsc_job_load(job, error);
+  if (status == VSC_OK) vsc_watch_resume(job->problem, job->state, job->watch);
+  if (status == VSC_OK) status = vsc_watch_continues(job->watch, path, error);
   if (status == VSC_OK) status = open_files(job, error);
   if (status != VSC_OK) return status;
   vsc_watch_free(job->watch);

@@ -417,6 +417,45 @@ void vsc_watch_resume(const vsc_problem *problem, vsc_state *state, vsc_watch *w
   make_row(problem, state, watch);
 }
 
+// Compares the columns of `header`, which is cut into them.
+static vsc_status compare_columns(const vsc_watch *watch, char *header, const char *file, vsc_error *error)
+{
+  const char *more = NULL, *lacks = NULL;
+  bool seen[VSC_SIGNALS] = {false}, same = true;
+  size_t count = 0;
+  char *rest;
+  for (char *column = strtok_r(header, ",\n", &rest); column != NULL; column = strtok_r(NULL, ",\n", &rest)) {
+    size_t k = 0;
+    while (k < watch->signal_count && strcmp(watch->names[k], column) != 0) k++;
+    same = same && k == count++;
+    if (k < watch->signal_count)
+      seen[k] = true;
+    else if (more == NULL)
+      more = column;
+  }
+  for (size_t k = watch->signal_count; k-- > 0;)
+    if (!seen[k]) lacks = watch->names[k];
+  if (same && lacks == NULL) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT,
+                  "%s: its columns are not those of this scene: %s%s%s%s%s%s; resume with the outputs that the run was "
+                  "begun with (output.cavities, output.points), or begin anew in another folder with -o",
+                  file, lacks ? "it lacks " : "", lacks ? lacks : "", lacks && more ? ", " : "",
+                  more ? "it has " : lacks ? "" : "another order", more ? more : "", more ? " besides" : "");
+}
+
+vsc_status vsc_watch_continues(const vsc_watch *watch, const char *file, vsc_error *error)
+{
+  char *header = NULL;
+  size_t room = 0;
+  FILE *stream = fopen(file, "r");
+  if (stream == NULL) return VSC_OK;
+  const bool any = getline(&header, &room, stream) > 0;
+  fclose(stream);
+  const vsc_status status = any ? compare_columns(watch, header, file, error) : VSC_OK;
+  free(header);
+  return status;
+}
+
 void vsc_watch_free(vsc_watch *watch)
 {
   if (watch == NULL) return;

@@ -51,6 +51,14 @@ vsc_status vsc_watch_row(const vsc_problem *problem, vsc_state *state, vsc_watch
 // Renews what the next row needs from a state that was read from a checkpoint, without writing.
 void vsc_watch_resume(const vsc_problem *problem, vsc_state *state, vsc_watch *watch);
 
+// Whether the rows of `file`, left by the run that is resumed, have the columns that vsc_watch_resume has named; a file
+// that is missing or empty has none yet. VSC_INPUT with the columns that differ.
+vsc_status vsc_watch_continues(const vsc_watch *watch, const char *file, vsc_error *error);
+
+// Whether the rows of `file`, left by the run that is resumed, have the columns that vsc_watch_resume has named; a file
+// that is missing or empty has none yet. VSC_INPUT with a column that only one of the two has.
+vsc_status vsc_watch_continues(const vsc_watch *watch, const char *file, vsc_error *error);
+
 void vsc_watch_free(vsc_watch *watch);  // NULL is fine
 
 #endif
