@@ -65,11 +65,23 @@ static void test_cycles(void **state)
   assert_non_null(strstr(complained, "time.cycle: 1000 ms; expected a time above zero and before time.end"));
 }
 
+// What begins to beat after some cycles does not repeat itself before.
+static void test_cycles_of_rest(void **state)
+{
+  (void)state;
+  must("$V run block.yaml -o late --set 'materials[0].active.curve={kind: half_sine, duration: 15 ms, period: 20 ms}' "
+       "--set 'materials[0].active.delay=50 ms' --set pressures=[] --set 'time={end: 70 ms, cycle: 20 ms}' -t 1");
+  assert_string_equal(summary("late", "time_s"), "0.07");
+  assert_string_equal(summary("late", "repeats"), "no");
+  assert_true(strtod(summary("late", "cycle_difference"), NULL) > 0.5);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_repeated_with_shorter_steps),
       cmocka_unit_test(test_cycles),
+      cmocka_unit_test(test_cycles_of_rest),
   };
   return cmocka_run_group_tests(tests, block_open, program_close);
 }
