@@ -18,12 +18,22 @@
 #define MOST_DRIFT 0.1
 #define MOST_RATIO 1e3  // of an element's volume to that at rest
 
-// One column of the row being made, with its name.
+static bool is_taken(const vsc_watch *watch, size_t column)
+{
+  for (size_t k = 0; k < column; k++)
+    if (strcmp(watch->names[k], watch->names[column]) == 0) return true;
+  return false;
+}
+
+// One column of the row being made, with its name; numbered from 2 on where an earlier one has it, as that of a second
+// load on the same surface.
 static void put(vsc_watch *watch, const char *unit, double value, const char *name,
                 const char *suffix)
 {
   const size_t k = watch->signal_count++;
   snprintf(watch->names[k], VSC_SIGNAL_NAME, "%s%s [%s]", name, suffix, unit);
+  for (int n = 2; is_taken(watch, k); n++)
+    snprintf(watch->names[k], VSC_SIGNAL_NAME, "%s%s_%d [%s]", name, suffix, n, unit);
   watch->values[k] = value;
 }
 
