@@ -347,6 +347,17 @@ static vsc_status advance(vsc_job *job, double stop, vsc_error *error)
   return status;
 }
 
+// Nobody goes back where implicit steps make energy, as looks let explicit ones do: it is told.
+static void warn_of_energy(const vsc_job *job, vsc_run_result *result)
+{
+  const double made = vsc_watch_energy_made(job->watch);
+  if (job->problem->model->solve.kind != VSC_SOLVE_IMPLICIT || made <= VSC_MOST_ENERGY_MADE) return;
+  snprintf(result->warning, sizeof result->warning,
+           "by the energy balance implicit steps have made %.0f %% of the largest energy or work: take shorter steps "
+           "(time.step, solver.accuracy), or scheme: generalized_alpha with a smaller rho; where loads act between rare "
+           "rows, which the balance does not see, closer rows (output.signals)", 100 * made);
+}
+
 static void fill_result(const vsc_job *job, vsc_run_result *result)
 {
   result->steps = job->state->steps - job->start_steps;
@@ -365,6 +376,7 @@ static void fill_result(const vsc_job *job, vsc_run_result *result)
   result->most_inverted = job->most_inverted;
   result->frames = job->pvd ? vsc_pvd_count(job->pvd) : 0;  // the writer has finished: a checkpoint was saved
   vsc_job_path(job, ".pvd", result->series);
+  warn_of_energy(job, result);
 }
 
 // Leaves the last good state and the reason; what fails now on top of that is not told.

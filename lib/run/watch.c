@@ -55,6 +55,7 @@ static void put_energies(const vsc_model *model, vsc_watch *watch)
   put(watch, "mJ", MJ * ledger->pressure, "work_pressure", "");
   put(watch, "mJ", MJ * ledger->dissipated, "dissipated", "");
   if (model->branch_count > 0) put(watch, "mJ", MJ * t->prony_work, "work_prony", "");
+  watch->balance_column = watch->signal_count;
   put(watch, "mJ", MJ * vsc_balance_error(ledger, t), "balance_error", "");
 }
 
@@ -425,6 +426,12 @@ void vsc_watch_resume(const vsc_problem *problem, vsc_state *state, vsc_watch *w
 {
   vsc_observe(problem->model, state, watch->ledger, true, &watch->totals);
   make_row(problem, state, watch);
+}
+
+double vsc_watch_energy_made(const vsc_watch *watch)
+{
+  if (watch->rows == 0) return 0;
+  return fmax(watch->high[watch->balance_column], 0) / (MJ * watch->energy_scale);
 }
 
 // Compares the columns of `header`, which is cut into them.
