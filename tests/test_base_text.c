@@ -75,12 +75,21 @@ static void test_names_are_cut(void **state)
   assert_string_equal(name, "endo");
 }
 
+static void test_plain_names(void **state)
+{
+  (void)state;
+  static const char *const plain[] = {"", "endo", "left ventricle", "a.b-c_1/2", "\xc3\xa9pi"};
+  static const char *const odd[] = {"a,b", "a[0", "b]", "\"a\"", "a\\b", "a\nb", "a\tb", "a\x7f"};
+  for (size_t k = 0; k < sizeof plain / sizeof plain[0]; k++) assert_true(vsc_name_is_plain(plain[k]));
+  for (size_t k = 0; k < sizeof odd / sizeof odd[0]; k++) assert_false(vsc_name_is_plain(odd[k]));
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_distances),     cmocka_unit_test(test_distance_is_a_metric),
       cmocka_unit_test(test_nearest),       cmocka_unit_test(test_very_long_words),
-      cmocka_unit_test(test_names_are_cut),
+      cmocka_unit_test(test_names_are_cut), cmocka_unit_test(test_plain_names),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -169,7 +169,7 @@ static void written_numbers_keep_every_bit(void **state)
 {
   (void)state;
   const char *const odd[] = {"time.end=0.1 us", "materials[0].axial.f=0.30000000000000004 kPa",
-                             "fibers.pitch=0.3 rad", "materials[0].name=\"a \\\"b\\\": #c\\\\d\"",
+                             "fibers.pitch=0.3 rad", "mesh.region_array=\"a \\\"b\\\": #c\\\\d\"",
                              "gravity=[1e-7 m/s2, -3.3333333333333333e20 m/s2, 5e-324 mm/ms2]"};
   const char *const texts[] = {full, minimal};
   for (size_t i = 0; i < 2; i++) {
@@ -183,7 +183,7 @@ static void written_numbers_keep_every_bit(void **state)
     assert_true(d->materials[0].axial[0] == e->materials[0].axial[0]);
     assert_true(scene->fibers.pitch == again->fibers.pitch);
     for (int k = 0; k < 3; k++) assert_true(d->gravity[k] == e->gravity[k]);
-    assert_string_equal(e->materials[0].name, "a \"b\": #c\\d");
+    assert_string_equal(e->region_array, "a \"b\": #c\\d");
     assert_string_equal(again->mesh_file, scratch("lv.vtu"));
     assert_int_equal(vsc_scene_write(again, scratch("again.yaml"), &error), VSC_OK);
     char *first = scratch_load(scratch("resolved.yaml"), NULL);

@@ -148,6 +148,52 @@ static void the_peak_of_a_hill_does_not_depend_on_the_end(void **state)
   vsc_curve_free(&beginning);
 }
 
+// The same bits whether a run ends early or late, so that it can be resumed to a later end; where a table would be too long
+// for that, its hash says so.
+static void values_do_not_depend_on_the_end(void **state)
+{
+  (void)state;
+  double times[] = {0, 3, 7.7, 30, 150}, values[] = {0, 1, 0.4, 2, 0};
+  for (int kind = VSC_CURVE_CONSTANT; kind <= VSC_CURVE_BESTEL_PRESSURE; kind++) {
+    vsc_curve_def d = vsc_default_curve((vsc_curve_kind)kind);
+    if (kind == VSC_CURVE_RAMP || kind == VSC_CURVE_HALF_SINE) d.duration = 15.7;
+    if (kind == VSC_CURVE_TABLE) {
+      d.point_count = 5;
+      d.times = times;
+      d.values = values;
+    }
+    vsc_curve early = build(&d, 11), late = build(&d, 40), long_after = build(&d, 4000);
+    for (double time = 0; time <= 11; time += 0.01) {
+      assert_true(vsc_curve_value(&early, time) == vsc_curve_value(&late, time));
+      assert_true(vsc_curve_value(&early, time) == vsc_curve_value(&long_after, time));
+    }
+    assert_true(early.hash == late.hash && early.hash == long_after.hash);
+    assert_true(early.range == late.range && early.range == long_after.range);
+    vsc_curve_free(&early);
+    vsc_curve_free(&late);
+    vsc_curve_free(&long_after);
+  }
+  const vsc_curve_def hill = vsc_default_curve(VSC_CURVE_DOUBLE_HILL);
+  vsc_curve usual = build(&hill, 16000), coarse = build(&hill, 17000);
+  assert_true(usual.spacing != coarse.spacing && usual.hash != coarse.hash);
+  vsc_curve_free(&usual);
+  vsc_curve_free(&coarse);
+}
+
+// A pulse of 0.1 ms in a run of a second, to (pi/2048)^2/8 = 3e-7 but for the last place before its end; it rests behind.
+static void short_pulses_are_seen(void **state)
+{
+  (void)state;
+  vsc_curve_def d = vsc_default_curve(VSC_CURVE_HALF_SINE);
+  d.start = 1;
+  d.duration = 0.1;
+  vsc_curve curve = build(&d, 1000);
+  for (double time = 1; time < 1.0999; time += 0.00071)
+    assert_close(vsc_curve_value(&curve, time), half_sine(&d, time), 0, 3e-7);
+  for (double time = 1.1 + 1e-3; time < 1000; time += 9.7) assert_true(vsc_curve_value(&curve, time) == 0);
+  vsc_curve_free(&curve);
+}
+
 // Large powers make a box; nothing overflows to NaN.
 static void a_hill_of_large_powers_is_a_box(void **state)
 {
@@ -299,6 +345,8 @@ int main(void)
       cmocka_unit_test(a_pair_of_tanh),
       cmocka_unit_test(a_double_hill),
       cmocka_unit_test(the_peak_of_a_hill_does_not_depend_on_the_end),
+      cmocka_unit_test(values_do_not_depend_on_the_end),
+      cmocka_unit_test(short_pulses_are_seen),
       cmocka_unit_test(a_hill_of_large_powers_is_a_box),
       cmocka_unit_test(a_constant_is_one),
       cmocka_unit_test(curves_repeat),

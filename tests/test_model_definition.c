@@ -103,6 +103,9 @@ SPOIL(axial, d->materials[1].axial[2] = -5)
 SPOIL(axial_nan, d->materials[0].axial[0] = NAN)
 SPOIL(angular, d->materials[0].angular[1] = -1e-9)
 SPOIL(damping, d->materials[0].damping[0] = -1)
+SPOIL(material_name, vsc_copy_name(d->materials[1].name, "a,b"))
+SPOIL(surface_name, vsc_copy_name(d->surfaces[0].name, "in \"quotes\""))
+SPOIL(set_name, vsc_copy_name(d->sets[1].name, "a\\b"))
 SPOIL(density, d->materials[0].density = 0)
 SPOIL(no_volume, d->materials[1].volume_modulus = 0)
 SPOIL(huge_volume, d->materials[1].volume_modulus = INFINITY)
@@ -205,6 +208,9 @@ static void every_rule_names_its_key(void **state)
       {axial_nan, "materials[0].axial.f: ", "zero or more"},
       {angular, "materials[0].angular.sn: ", "zero or more"},
       {damping, "materials[0].damping.f: ", "zero or more"},
+      {material_name, "materials[1].name: \"a,b\": ", "without commas"},
+      {surface_name, "surfaces[0].name: ", "without commas, brackets, quotes"},
+      {set_name, "node_sets[1].name: ", "backslashes"},
       {density, "materials[0].density: 0 mg/mm3: ", "above zero"},
       {no_volume, "materials[1].volume_modulus: 0 kPa: ", "10 to 100 times"},
       {huge_volume, "materials[1].volume_modulus: ", "above zero"},

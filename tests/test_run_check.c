@@ -244,6 +244,23 @@ static void test_active_without_fibres_is_an_error(void **state)
   assert_holds(complained, "no element has a fibre");
 }
 
+// Relaxation has no tangent, and springs on edges need none.
+static void test_relaxation_of_any_law(void **state)
+{
+  (void)state;
+  static const char options[] =
+      "block.yaml --set 'materials=[{name: m, law: classical, classical: {stiffness: 20 N/m, damping: 0.01 N s/m}}]' "
+      "--set 'pressures=[{surface: end, peak: 0.1 kPa}]' --set solve=equilibrium --set solver.method=relaxation";
+  char command[400];
+  snprintf(command, sizeof command, "$V check %s", options);
+  must(command);
+  assert_holds(line_of("solve"), "equilibrium at each frame and signal; relaxation to ");
+  snprintf(command, sizeof command, "$V run -q -o slack %s --set 'time.end=1 ms'", options);
+  must(command);
+  snprintf(command, sizeof command, "$V check %s --set solver.method=newton", options);
+  assert_int_equal(shell(command), 2);
+}
+
 // The same warnings come before a run, unless it is to be quiet; the run goes on.
 static void test_run_warns_too(void **state)
 {
@@ -267,6 +284,7 @@ int main(void)
       cmocka_unit_test(test_warnings_about_the_setting),
       cmocka_unit_test(test_warnings_about_fibres),
       cmocka_unit_test(test_active_without_fibres_is_an_error),
+      cmocka_unit_test(test_relaxation_of_any_law),
       cmocka_unit_test(test_run_warns_too),
   };
   return cmocka_run_group_tests(tests, block_open, program_close);

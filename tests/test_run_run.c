@@ -219,6 +219,20 @@ static void test_scene_as_understood(void **state)
   assert_same_files("again/signals.csv", "a/signals.csv");
 }
 
+// Two loads on one surface have two columns and two keys.
+static void test_columns_of_one_surface(void **state)
+{
+  (void)state;
+  static char text[PROGRAM_TEXT];
+  must("$V run block.yaml -q -o pushed --set 'pressures=[{surface: end, peak: 1 kPa}, {surface: end, peak: 2 kPa, "
+       "direction: [0, 1, 0]}, {surface: skin, peak: 0.5 kPa}]' --set 'time.end=2 ms'");
+  load_text("pushed/signals.csv", text, sizeof text);
+  assert_holds(text, ",pressure_end [kPa],pressure_end_2 [kPa],pressure_skin [kPa],");
+  assert_close(last_signal("pushed", "pressure_end_2"), 2, 1e-15, 0);
+  load_text("pushed/summary.json", text, sizeof text);
+  assert_holds(text, "\"pressure_end_2 [kPa]\": {");
+}
+
 static void assert_same_axis(const double *a, const double *b)
 {
   assert_close(fabs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]), 1, 1e-12, 0);
@@ -413,6 +427,7 @@ int main(void)
       cmocka_unit_test(test_signals),
       cmocka_unit_test(test_summary),
       cmocka_unit_test(test_scene_as_understood),
+      cmocka_unit_test(test_columns_of_one_surface),
       cmocka_unit_test(test_order_of_the_file),
       cmocka_unit_test(test_fibres_of_the_first_frame),
       cmocka_unit_test(test_intervals),

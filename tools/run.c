@@ -165,6 +165,7 @@ int vsc_verb_run(int argc, char **argv)
   vsc_error error;
   code = (int)vsc_run(problem, &arguments.run, &result, &error);
   if (begin[1] >= 0) fputc('\n', stderr);  // behind the progress
+  if (!arguments.quiet && result.warning[0] != '\0') fprintf(stderr, "viscera: warning: %s\n", result.warning);
   if (code != 0)
     fprintf(stderr, "viscera: %s\n", error.text);
   else

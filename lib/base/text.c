@@ -47,3 +47,10 @@ void vsc_copy_name(char to[VSC_NAME], const char *from)
 {
   snprintf(to, VSC_NAME, "%s", from);
 }
+
+bool vsc_name_is_plain(const char *name)
+{
+  for (const char *c = name; *c != '\0'; c++)
+    if (strchr(",[]\"\\", *c) != NULL || (unsigned char)*c < ' ' || *c == 0x7f) return false;
+  return true;
+}

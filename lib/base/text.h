@@ -3,6 +3,7 @@
 #ifndef VSC_BASE_TEXT_H
 #define VSC_BASE_TEXT_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 enum { VSC_NAME = 64 };  // bytes of a name (array, region, set, surface) with its terminating zero
@@ -17,5 +18,9 @@ const char *vsc_nearest(const char *word, const char *const *words, size_t count
 
 // Copies `from` into the name field `to` (VSC_NAME bytes), cut if it is longer.
 void vsc_copy_name(char to[VSC_NAME], const char *from);
+
+// Whether a name can stand in the header of a table and in JSON as it is: no comma, bracket, quote, backslash or
+// control character in it.
+bool vsc_name_is_plain(const char *name);
 
 #endif

@@ -82,6 +82,7 @@ static vsc_status convert(vsc_reading *reading, const vsc_slot *slots, vsc_scene
 {
   vsc_scene *made = create_scene(reading->file);
   if (made == NULL) return vsc_fail_memory(reading->error, "the scene");
+  reading->scene = made;
   vsc_status status = vsc_group_convert(reading, &vsc_scene_group, slots, made);
   if (status == VSC_OK) complete_output(made);
   if (status == VSC_OK) status = vsc_scene_check(reading, made);
@@ -132,6 +133,7 @@ void vsc_scene_free(vsc_scene *scene)
 {
   if (scene == NULL) return;
   vsc_definition_free(&scene->definition);
+  vsc_free(scene->inputs);
   vsc_free(scene->curved);
   vsc_free(scene->output.points);
   vsc_free(scene);

@@ -50,6 +50,8 @@ typedef struct vsc_prestress_def {
 typedef struct vsc_scene {
   char file[VSC_PATH];      // the scene file
   char mesh_file[VSC_PATH]; // resolved against the scene file's folder
+  size_t input_count;         // files that the scene names: mesh, map, vessels, curves
+  char (*inputs)[VSC_PATH];   // resolved likewise; owned
   double mesh_unit;         // mm per unit of the mesh's coordinates
   int mesh_order;           // 1: elements as the file has them (default), 2: tets made quadratic
   size_t curved_count;      // surfaces whose edges are bent

@@ -171,8 +171,8 @@ static vsc_status check_point(vsc_reading *reading, const vsc_output_def *output
                             VSC_OUTPUT_POINTS);
   }
   const size_t length = vsc_enter(reading, "name");
-  if (point->name[0] == '\0' || strpbrk(point->name, ",[]\"\n\r") != NULL)
-    return vsc_reading_fail(reading, "\"%s\"; expected a name without commas, brackets and quotes",
+  if (point->name[0] == '\0' || !vsc_name_is_plain(point->name))
+    return vsc_reading_fail(reading, "\"%s\"; expected a name without commas, brackets, quotes and backslashes",
                             point->name);
   for (size_t k = 0; k < i; k++)
     if (strcmp(output->points[k].name, point->name) == 0)

@@ -7,6 +7,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/mem.h"
+
 size_t vsc_enter(vsc_reading *reading, const char *key)
 {
   const size_t length = strlen(reading->key);
@@ -95,5 +97,9 @@ vsc_status vsc_scene_resolve(vsc_reading *reading, const char *file, char resolv
   if (length >= VSC_PATH)
     return vsc_reading_fail(reading, "\"%.60s...\": a file name of more than %d bytes; shorten it",
                             file, VSC_PATH - 1);
+  vsc_scene *scene = reading->scene;
+  if (!vsc_grow((void **)&scene->inputs, scene->input_count, scene->input_count + 1, VSC_PATH))
+    return vsc_fail_memory(reading->error, "the scene");
+  strcpy(scene->inputs[scene->input_count++], resolved);
   return VSC_OK;
 }

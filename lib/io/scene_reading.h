@@ -20,6 +20,7 @@ typedef struct vsc_reading {
   const vsc_setting *settings;
   size_t setting_count;
   const vsc_setting *current;     // the setting that is being put in; NULL: the file is being read
+  vsc_scene *scene;               // being filled, borrowed
   char key[VSC_SCENE_KEY];        // where the reading is
   vsc_error *error;
 } vsc_reading;
@@ -38,7 +39,8 @@ vsc_status vsc_reading_fail(const vsc_reading *reading, const char *format, ...)
 // The same for an error whose text begins with "key: ".
 vsc_status vsc_reading_locate(const vsc_reading *reading, const vsc_error *found);
 
-// "dir/file" when `file` is relative, dir being the scene's folder; too long a name fails.
+// "dir/file" when `file` is relative, dir being the scene's folder; too long a name fails. It becomes one of the
+// scene's inputs.
 vsc_status vsc_scene_resolve(vsc_reading *reading, const char *file, char resolved[VSC_PATH]);
 
 // Fails unless `file` is a file that can be read.

@@ -10,8 +10,8 @@
 #include "model/curve_driver.h"
 
 enum { INTERVALS_OF_PERIOD = 8192, DRIVEN_INTERVALS_OF_PERIOD = 65536, MOST_INTERVALS = 1 << 20 };
-// ms; of a curve without period, doubled for runs of more than 16 s, halved for those below 128 ms
-#define SPACING 0.015625
+enum { INTERVALS_OF_SCALE = 2048 };
+#define SPACING 0.015625  // ms; of a curve without period, halved for what changes within less than 32 ms
 
 // base^exponent; infinity, without overflow, where that is e^709.78 or more.
 static double power_of(double base, double exponent)
@@ -93,7 +93,59 @@ static bool is_driven(const vsc_curve_def *d)
   return d->kind == VSC_CURVE_BESTEL || d->kind == VSC_CURVE_BESTEL_PRESSURE;
 }
 
-// A table's places do not depend on when the run ends, so that a run can be resumed to a later end.
+// Behind this a driver only falls, ms.
+static double driven_until(const vsc_curve_def *d)
+{
+  return d->stop + 10 * d->width;
+}
+
+// Formulas go from 0 to 1, the others as their points and their equation say.
+static double find_range(const vsc_curve_def *d, const vsc_curve *curve)
+{
+  if (d->kind == VSC_CURVE_CONSTANT) return 0;
+  if (d->kind != VSC_CURVE_TABLE && !is_driven(d)) return 1;
+  const double *values = d->kind == VSC_CURVE_TABLE ? d->values : curve->values;
+  double count = d->kind == VSC_CURVE_TABLE ? (double)d->point_count : (double)curve->intervals + 1;
+  if (is_driven(d) && !(d->period > 0)) count = fmin(count, ceil(driven_until(d) / curve->spacing));
+  double low = values[0], high = values[0];
+  for (size_t k = 1; (double)k < count; k++) {
+    low = fmin(low, values[k]);
+    high = fmax(high, values[k]);
+  }
+  return high - low;
+}
+
+// The time in which a curve without period changes, ms.
+static double scale_of(const vsc_curve_def *d)
+{
+  if (d->kind == VSC_CURVE_RAMP || d->kind == VSC_CURVE_HALF_SINE) return d->duration;
+  if (d->kind == VSC_CURVE_DOUBLE_HILL || d->kind == VSC_CURVE_TANH_PAIR) return fmin(d->rise, d->fall);
+  if (d->kind == VSC_CURVE_TABLE && d->point_count > 0) return (d->times[d->point_count - 1] - d->times[0]) / 4;
+  return 8 * d->width;
+}
+
+// When a curve without period has come to rest, ms; tanh is 1 to the last bit from 20 on.
+static double rests_from(const vsc_curve_def *d)
+{
+  if (d->kind == VSC_CURVE_RAMP || d->kind == VSC_CURVE_HALF_SINE) return d->start + d->duration;
+  if (d->kind == VSC_CURVE_TANH_PAIR) return d->start + fmax(20 * d->rise, d->duration + 20 * d->fall);
+  if (d->kind == VSC_CURVE_TABLE && d->point_count > 0) return d->times[d->point_count - 1];
+  return HUGE_VAL;
+}
+
+// A table's places do not depend on when the run ends, so that a run can be resumed to a later end. A table with too many
+// would have to: the hash then tells the one from the other.
+static void place_endless(const vsc_curve_def *d, double end_time, vsc_curve *curve)
+{
+  curve->spacing = SPACING;
+  while (scale_of(d) / curve->spacing < INTERVALS_OF_SCALE && curve->spacing > 0x1p-40) curve->spacing /= 2;
+  const double usual = curve->spacing;
+  const double last = is_driven(d) ? fmax(end_time, driven_until(d)) : fmin(end_time, rests_from(d));
+  while (last / curve->spacing > MOST_INTERVALS) curve->spacing *= 2;
+  if (curve->spacing != usual) curve->hash = vsc_hash(curve->hash, &curve->spacing, sizeof curve->spacing);
+  curve->intervals = (size_t)fmax(ceil(last / curve->spacing), 1);
+}
+
 static void place_table(const vsc_curve_def *d, double end_time, vsc_curve *curve)
 {
   if (d->kind == VSC_CURVE_CONSTANT) {
@@ -104,10 +156,7 @@ static void place_table(const vsc_curve_def *d, double end_time, vsc_curve *curv
     curve->intervals = is_driven(d) ? DRIVEN_INTERVALS_OF_PERIOD : INTERVALS_OF_PERIOD;
     curve->spacing = d->period / (double)curve->intervals;
   } else {
-    curve->spacing = SPACING;
-    while (end_time / curve->spacing > MOST_INTERVALS) curve->spacing *= 2;
-    while (end_time / curve->spacing < INTERVALS_OF_PERIOD && curve->spacing > 0x1p-40) curve->spacing /= 2;
-    curve->intervals = (size_t)fmax(ceil(end_time / curve->spacing), 1);
+    place_endless(d, end_time, curve);
   }
 }
 
@@ -124,12 +173,8 @@ static uint64_t hash_definition(const vsc_curve_def *d)
   return vsc_hash(hash, d->values, d->point_count * sizeof *d->values);
 }
 
-vsc_status vsc_curve_build(const vsc_curve_def *d, double end_time, vsc_curve *curve,
-                           vsc_error *error)
+static vsc_status tabulate(const vsc_curve_def *d, vsc_curve *curve, vsc_error *error)
 {
-  *curve = (vsc_curve){.period = d->period, .hash = hash_definition(d)};
-  place_table(d, end_time, curve);
-  if (!VSC_NEW(curve->values, curve->intervals + 1)) return vsc_fail_memory(error, "a curve");
   if (d->kind == VSC_CURVE_TABLE) return tabulate_points(d, curve, error);
   if (is_driven(d))
     return vsc_curve_drive(d, curve->spacing, curve->intervals, curve->values, error);
@@ -137,6 +182,17 @@ vsc_status vsc_curve_build(const vsc_curve_def *d, double end_time, vsc_curve *c
   for (size_t k = 0; k <= curve->intervals; k++)
     curve->values[k] = analytic_value(d, curve->spacing * (double)k) / peak;
   return VSC_OK;
+}
+
+vsc_status vsc_curve_build(const vsc_curve_def *d, double end_time, vsc_curve *curve,
+                           vsc_error *error)
+{
+  *curve = (vsc_curve){.period = d->period, .hash = hash_definition(d)};
+  place_table(d, end_time, curve);
+  if (!VSC_NEW(curve->values, curve->intervals + 1)) return vsc_fail_memory(error, "a curve");
+  const vsc_status status = tabulate(d, curve, error);
+  if (status == VSC_OK) curve->range = find_range(d, curve);
+  return status;
 }
 
 void vsc_curve_free(vsc_curve *curve)

@@ -11,14 +11,16 @@
 
 // Values at equal distances over one period (or over the whole run), linear between them.
 typedef struct vsc_curve {
-  double period;   // ms; 0: not periodic, flat behind the table
+  double period;   // ms; 0: not periodic, flat behind the table, which ends with the run or where the curve rests
   double spacing;  // ms between two values
   size_t intervals;
+  double range;    // between its smallest value and its largest, wherever the table ends; 0: a constant
   double *values;  // intervals + 1, owned
-  uint64_t hash;   // of the definition, which does not know when the run ends
+  uint64_t hash;   // of the definition, which does not know when the run ends, unless the spacing depends on it
 } vsc_curve;
 
-// Tabulates `definition` over its period, or over [0, end_time] when it has none.
+// Tabulates `definition` over its period, or over [0, end_time] when it has none; then in steps of 1/64 ms, or of 1/2048
+// of the time in which it changes if that is less: only for more than 2^20 of them in longer ones.
 // Fails with VSC_INPUT for a table that is not rising in time, VSC_NUMERICAL for a driver's equation
 // that cannot be followed (model/curve_driver.h), and for lack of memory.
 vsc_status vsc_curve_build(const vsc_curve_def *definition, double end_time, vsc_curve *curve,

@@ -8,6 +8,20 @@
 #include "model/law_constants.h"
 #include "model/prony_check.h"
 
+// Fails for `key` with a text.
+static void need_text(vsc_checker *c, bool fine, const char *key, const char *text, const char *remedy)
+{
+  if (c->status == VSC_OK && !fine)
+    c->status =
+        vsc_fail(c->error, VSC_INPUT, "%s.%s: \"%s\": %s", c->where, key, text, remedy);
+}
+
+// Names become columns of tables and keys of summaries.
+static void need_name(vsc_checker *c, const char *name)
+{
+  need_text(c, vsc_name_is_plain(name), "name", name, "give a name without commas, brackets, quotes and backslashes");
+}
+
 static void check_active(vsc_checker *c, size_t item, const vsc_active_def *active, vsc_law law)
 {
   enter(c, "materials", item, ".active");
@@ -128,6 +142,7 @@ static void check_paper(vsc_checker *c, const vsc_paper_def *paper)
 static void check_material(vsc_checker *c, size_t item, const vsc_material_def *material)
 {
   enter(c, "materials", item, "");
+  need_name(c, material->name);
   need_positive(c, "density", material->density, "mg/mm3", "give a density above zero");
   if (vsc_law_is_of_strain(material->law)) check_strain_law(c, material);
   if (material->law == VSC_LAW_PAPER) check_paper(c, &material->paper);
@@ -196,8 +211,8 @@ static void check_selectors(vsc_checker *c, const char *list, const vsc_selector
 {
   for (size_t i = 0; i < count; i++) {
     enter(c, list, i, "");
-    if (c->status == VSC_OK && selectors[i].name[0] == '\0')
-      c->status = vsc_fail(c->error, VSC_INPUT, "%s.name: empty: give it a name", c->where);
+    need_name(c, selectors[i].name);
+    need_text(c, selectors[i].name[0] != '\0', "name", "", "give it a name");
     for (size_t j = 0; c->status == VSC_OK && j < i; j++)
       if (strcmp(selectors[i].name, selectors[j].name) == 0)
         c->status = vsc_fail(c->error, VSC_INPUT,
@@ -211,6 +226,7 @@ static void check_membrane(vsc_checker *c, const vsc_definition *d, size_t item)
 {
   const vsc_membrane_def *m = &d->membranes[item];
   enter(c, "membranes", item, "");
+  need_name(c, m->name);
   if (strcmp(m->surface, "triangles") != 0)
     vsc_check_known(c, "surface", m->surface, d->surfaces, d->surface_count, true);
   need_positive(c, "thickness", m->thickness, "mm", "give a thickness above zero");
@@ -225,14 +241,6 @@ static void check_membrane(vsc_checker *c, const vsc_definition *d, size_t item)
   need_finite3(c, "direction", m->direction, "");
 }
 
-// Fails for `key` with a text.
-static void need_text(vsc_checker *c, bool fine, const char *key, const char *text, const char *remedy)
-{
-  if (c->status == VSC_OK && !fine)
-    c->status =
-        vsc_fail(c->error, VSC_INPUT, "%s.%s: \"%s\": %s", c->where, key, text, remedy);
-}
-
 static void check_vessel(vsc_checker *c, const vsc_definition *d, size_t item)
 {
   const vsc_vessel_def *v = &d->vessels[item];
@@ -243,6 +251,7 @@ static void check_vessel(vsc_checker *c, const vsc_definition *d, size_t item)
   need_text(c, own != NULL, "material", v->material, "no material has this name; list it");
   need_text(c, own == NULL || own->law == VSC_LAW_SPRINGS, "material", v->material,
             "its moduli are mixed into the tissue's, so its law must be springs");
+  need_name(c, v->name);
   need_text(c, v->name[0] != '\0', "name", v->name, "give it a name");
   for (size_t other = 0; other < item; other++)
     need_text(c, strcmp(d->vessels[other].name, v->name) != 0, "name", v->name,

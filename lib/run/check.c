@@ -412,6 +412,13 @@ static vsc_status say_stepping(const vsc_problem *problem, FILE *out, vsc_error 
   return status;
 }
 
+// Relaxation has no matrix, and steps of its own.
+static void say_relaxation(const vsc_model *model, FILE *out)
+{
+  fprintf(out, "solve      equilibrium at each frame and signal; relaxation to %g; %zu unknowns\n", model->solve.tolerance,
+          3 * model->node_count);
+}
+
 // What Newton's method will work on.
 static vsc_status say_newton(const vsc_problem *problem, FILE *out, vsc_error *error)
 {
@@ -456,8 +463,12 @@ vsc_status vsc_check(const vsc_problem *problem, FILE *stream, int *warnings, vs
     say_material(model, &model->materials[m], &problem->scene->definition.materials[m], stream);
   say_membranes(model, stream);
   say_terms(model, stream);
-  status = model->solve.kind == VSC_SOLVE_EXPLICIT ? say_stepping(problem, stream, error)
-                                                   : say_newton(problem, stream, error);
+  if (model->solve.kind == VSC_SOLVE_EXPLICIT)
+    status = say_stepping(problem, stream, error);
+  else if (model->solve.kind == VSC_SOLVE_EQUILIBRIUM && model->solve.method == VSC_STATICS_RELAXATION)
+    say_relaxation(model, stream);
+  else
+    status = say_newton(problem, stream, error);
   if (status == VSC_OK) {
     const int found = vsc_check_warnings(problem, stream, "warning    ");
     if (found == 0) fprintf(stream, "warnings   none\n");

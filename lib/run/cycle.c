@@ -42,7 +42,7 @@ void vsc_cycle_look(const vsc_model *model, const vsc_state *state, vsc_cycle *c
 void vsc_cycle_end(const vsc_model *model, const vsc_state *state, vsc_cycle *cycle)
 {
   const double *v = cycle->kept + 4 * model->node_count;
-  const double off = cycle->stroke > 0 ? rms(model, state->x, cycle->kept) / cycle->stroke : 0;
+  const double off = cycle->stroke > 0 ? rms(model, state->x, cycle->kept) / cycle->stroke : 1;
   const double faster = cycle->speed > 0 ? rms(model, state->v, v) / cycle->speed : 0;
   cycle->ended++;
   cycle->difference = cycle->ended > 1 ? fmax(off, faster) : 1;

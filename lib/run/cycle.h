@@ -12,7 +12,8 @@ typedef struct vsc_cycle {
   double stroke;      // largest RMS distance from there since, mm
   double speed;       // largest RMS velocity since, mm/ms
   double ended;       // cycles so far
-  double difference;  // of the last from the one before: vsc_cycle_end; 1 before there were two
+  double difference;  // of the last from the one before: vsc_cycle_end; 1 before there were two, and
+                      // of a cycle in which nothing has moved, which repeats nothing
 } vsc_cycle;
 
 // Begins at the state. VSC_SYSTEM when memory is short.

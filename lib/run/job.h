@@ -38,6 +38,10 @@ typedef struct vsc_job {
 // DIRECTORY/what, or DIRECTORY/NAME.what when `what` begins with a dot.
 void vsc_job_path(const vsc_job *job, const char *what, char path[VSC_PATH]);
 
+// VSC_INPUT when a file that the run would write, replace or remove is one that it is made of: the scene's own, its
+// mesh, map, vessels or curves. Of a resumed run the scene may be DIRECTORY/scene.yaml.
+vsc_status vsc_job_spare_inputs(const vsc_job *job, vsc_error *error);
+
 // VSC_INPUT when the scene asks for an array that its model does not have.
 vsc_status vsc_frames_check(const vsc_problem *problem, vsc_error *error);
 

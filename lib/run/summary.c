@@ -58,6 +58,8 @@ static void write_newton(const vsc_job *job, FILE *file)
   const vsc_implicit_counts counts = vsc_implicit_counted(job->state);
   write_number(file, "steps_rejected", counts.rejected, ",");
   write_number(file, "steps_failed", counts.failed, ",");
+  write_number(file, "most_energy_made_part", vsc_watch_energy_made(job->watch), ",");
+  write_number(file, "energy_taken_part", -job->watch->balance / job->watch->energy_scale, ",");
 }
 
 static void write_unloaded(const vsc_problem *problem, FILE *file)
@@ -83,6 +85,7 @@ static void write_body(const vsc_job *job, const vsc_run_result *result, const c
   const bool ended = job->state->time >= model->end_time || result->repeats;
   write_string(file, "outcome", failure ? "failed" : ended ? "finished" : "stopped", ",");
   if (failure) write_string(file, "reason", failure, ",");
+  if (result->warning[0] != '\0') write_string(file, "warning", result->warning, ",");
   write_string(file, "kernel", vsc_kernel_set(), ",");
   fprintf(file, "  \"model_hash\": \"%016llx\",\n", (unsigned long long)model->hash);
   fprintf(file, "  \"state_hash\": \"%016llx\",\n",

@@ -18,12 +18,22 @@
 #define MOST_DRIFT 0.1
 #define MOST_RATIO 1e3  // of an element's volume to that at rest
 
-// One column of the row being made, with its name.
+static bool is_taken(const vsc_watch *watch, size_t column)
+{
+  for (size_t k = 0; k < column; k++)
+    if (strcmp(watch->names[k], watch->names[column]) == 0) return true;
+  return false;
+}
+
+// One column of the row being made, with its name; numbered from 2 on where an earlier one has it, as that of a second
+// load on the same surface.
 static void put(vsc_watch *watch, const char *unit, double value, const char *name,
                 const char *suffix)
 {
   const size_t k = watch->signal_count++;
   snprintf(watch->names[k], VSC_SIGNAL_NAME, "%s%s [%s]", name, suffix, unit);
+  for (int n = 2; is_taken(watch, k); n++)
+    snprintf(watch->names[k], VSC_SIGNAL_NAME, "%s%s_%d [%s]", name, suffix, n, unit);
   watch->values[k] = value;
 }
 
@@ -45,6 +55,7 @@ static void put_energies(const vsc_model *model, vsc_watch *watch)
   put(watch, "mJ", MJ * ledger->pressure, "work_pressure", "");
   put(watch, "mJ", MJ * ledger->dissipated, "dissipated", "");
   if (model->branch_count > 0) put(watch, "mJ", MJ * t->prony_work, "work_prony", "");
+  watch->balance_column = watch->signal_count;
   put(watch, "mJ", MJ * vsc_balance_error(ledger, t), "balance_error", "");
 }
 
@@ -415,6 +426,51 @@ void vsc_watch_resume(const vsc_problem *problem, vsc_state *state, vsc_watch *w
 {
   vsc_observe(problem->model, state, watch->ledger, true, &watch->totals);
   make_row(problem, state, watch);
+}
+
+double vsc_watch_energy_made(const vsc_watch *watch)
+{
+  if (watch->rows == 0) return 0;
+  return fmax(watch->high[watch->balance_column], 0) / (MJ * watch->energy_scale);
+}
+
+// Compares the columns of `header`, which is cut into them.
+static vsc_status compare_columns(const vsc_watch *watch, char *header, const char *file, vsc_error *error)
+{
+  const char *more = NULL, *lacks = NULL;
+  bool seen[VSC_SIGNALS] = {false}, same = true;
+  size_t count = 0;
+  char *rest;
+  for (char *column = strtok_r(header, ",\n", &rest); column != NULL; column = strtok_r(NULL, ",\n", &rest)) {
+    size_t k = 0;
+    while (k < watch->signal_count && strcmp(watch->names[k], column) != 0) k++;
+    same = same && k == count++;
+    if (k < watch->signal_count)
+      seen[k] = true;
+    else if (more == NULL)
+      more = column;
+  }
+  for (size_t k = watch->signal_count; k-- > 0;)
+    if (!seen[k]) lacks = watch->names[k];
+  if (same && lacks == NULL) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT,
+                  "%s: its columns are not those of this scene: %s%s%s%s%s%s; resume with the outputs that the run was "
+                  "begun with (output.cavities, output.points), or begin anew in another folder with -o",
+                  file, lacks ? "it lacks " : "", lacks ? lacks : "", lacks && more ? ", " : "",
+                  more ? "it has " : lacks ? "" : "another order", more ? more : "", more ? " besides" : "");
+}
+
+vsc_status vsc_watch_continues(const vsc_watch *watch, const char *file, vsc_error *error)
+{
+  char *header = NULL;
+  size_t room = 0;
+  FILE *stream = fopen(file, "r");
+  if (stream == NULL) return VSC_OK;
+  const bool any = getline(&header, &room, stream) > 0;
+  fclose(stream);
+  const vsc_status status = any ? compare_columns(watch, header, file, error) : VSC_OK;
+  free(header);
+  return status;
 }
 
 void vsc_watch_free(vsc_watch *watch)

@@ -25,6 +25,7 @@ typedef struct vsc_watch {
   vsc_cavity *cavities;                        // with the model's node numbers; owned
   uint32_t (*point_nodes)[VSC_MOST_CORNERS];   // of each observed point's element, in the model; owned
   size_t signal_count;                         // columns
+  size_t balance_column;                       // of the balance error
   char names[VSC_SIGNALS][VSC_SIGNAL_NAME];    // "name [unit]"
   double values[VSC_SIGNALS];                  // the last row
   double low[VSC_SIGNALS], high[VSC_SIGNALS];  // over all rows
@@ -50,6 +51,18 @@ vsc_status vsc_watch_row(const vsc_problem *problem, vsc_state *state, vsc_watch
 
 // Renews what the next row needs from a state that was read from a checkpoint, without writing.
 void vsc_watch_resume(const vsc_problem *problem, vsc_state *state, vsc_watch *watch);
+
+// The most energy that any row has had too much, as the balance says, of the largest energy or work of all; 0 where
+// none had. Of all rows, those before a checkpoint too.
+double vsc_watch_energy_made(const vsc_watch *watch);
+
+// Whether the rows of `file`, left by the run that is resumed, have the columns that vsc_watch_resume has named; a file
+// that is missing or empty has none yet. VSC_INPUT with the columns that differ.
+vsc_status vsc_watch_continues(const vsc_watch *watch, const char *file, vsc_error *error);
+
+// Whether the rows of `file`, left by the run that is resumed, have the columns that vsc_watch_resume has named; a file
+// that is missing or empty has none yet. VSC_INPUT with a column that only one of the two has.
+vsc_status vsc_watch_continues(const vsc_watch *watch, const char *file, vsc_error *error);
 
 void vsc_watch_free(vsc_watch *watch);  // NULL is fine
 

@@ -7,6 +7,7 @@
 #include "base/mem.h"
 #include "mech/force.h"
 #include "mech/prony.h"
+#include "model/calm.h"
 #include "solve/moving.h"
 
 #define FIRST_STEP 1.0      // ms, unless the way is shorter
@@ -315,7 +316,9 @@ vsc_status vsc_implicit_to(const vsc_model *model, vsc_state *state, double unti
   vsc_newton_begin(s->newton, state->force);
   while (state->time < until * (1 - 1e-12)) {
     const double rest = until - state->time;
-    const double parts = fmax(ceil(rest / state->limit.step * (1 - 1e-9)), 1);
+    double longest = fmin(state->limit.step, rest);
+    if (!(model->step > 0)) longest = vsc_model_calm(model, state->time, longest);
+    const double parts = fmax(ceil(rest / longest * (1 - 1e-9)), 1);
     const double dt = rest / parts;
     double allowed = model->step > 0 ? model->step : state->limit.step;
     bool done;

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How long loads stay about what they are: a step must not jump over what they do.
+#ifndef VSC_MODEL_CALM_H
+#define VSC_MODEL_CALM_H
+
+#include "model/model.h"
+
+// The longest time (ms), `most` at most, from `time` (ms) on in which
+//   |c(t) - c(time)| <= 1/8 of the curve's range
+// for the curve c of every active material (at the delays of its elements: 64 between the least and the largest),
+// pressure, moving support and obstacle, and not longer than a 16th of any of their periods. Where a curve changes by
+// more within two places of its table, these two places: a jump is passed.
+double vsc_model_calm(const vsc_model *model, double time, double most);
+
+#endif
