@@ -28,7 +28,7 @@ static const vsc_row vsc_node_set_group_rows[] = {
     {"name", NAME(vsc_selector, name), .needed = VSC_ALWAYS, .text = "*",
      .meaning = "what supports, loads and outputs call it"},
     {"node_array", NAME(vsc_selector, array), .selects = 1 + VSC_SELECT_NODE_ARRAY, .text = "*",
-     .meaning = "by a point array: the nodes with the value below"},
+     .meaning = "by a point array: the nodes with the value below (order: 2: and between two of them)"},
     {"triangle_array", NAME(vsc_selector, array), .selects = 1 + VSC_SELECT_TRIANGLE_ARRAY,
      .commented = true, .text = "surface",
      .meaning = "or by a cell array: the file's triangles with that value"},

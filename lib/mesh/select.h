@@ -12,9 +12,10 @@
 
 typedef enum vsc_select_kind {
   VSC_SELECT_BOUNDARY,    // the whole boundary
-  VSC_SELECT_NODE_ARRAY,  // nodes whose value of a node array lies in [low, high]
+  VSC_SELECT_NODE_ARRAY,  // nodes whose value of a node array lies in [low, high]; of those that mesh.order: 2
+                          // puts in the middle of edges, the ones both ends of whose edge do
   VSC_SELECT_TRIANGLE_ARRAY,  // triangles of the file whose cell array's value is in [low, high]
-  VSC_SELECT_BOX,         // inside or on a box
+  VSC_SELECT_BOX,         // inside or on a box, middles of edges too, wherever these end
   VSC_SELECT_PLANE,       // within a distance of a plane
   VSC_SELECT_SURFACE,     // the nodes of a surface that has a name of its own
 } vsc_select_kind;
