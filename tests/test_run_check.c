@@ -236,6 +236,18 @@ static void test_warnings_about_fibres(void **state)
   assert_int_equal(warnings(), 0);
 }
 
+// `boundary` may be the epicardium: what it has beside the endocardium, which is told where they meet.
+static void test_a_boundary_as_epicardium(void **state)
+{
+  (void)state;
+  assert_warns("--set 'fibers={source: helix, helix: {endo: end, epi: boundary}}'", "endo and epi meet at 16 nodes");
+  assert_warns("--set 'fibers={source: helix, helix: {endo: end, epi: skin}}'", "endo and epi meet at 16 nodes");
+  assert_int_equal(shell("$V check block.yaml --set 'fibers={source: helix, helix: {endo: end, epi: end}}'"), 2);
+  assert_holds(complained, "let epi name the outside of the wall");
+  assert_int_equal(shell("$V check block.yaml --set 'fibers={source: helix, helix: {endo: end, epi: epi}}'"), 2);
+  assert_holds(complained, "no surface is named");
+}
+
 static void test_active_without_fibres_is_an_error(void **state)
 {
   (void)state;
@@ -283,6 +295,7 @@ int main(void)
       cmocka_unit_test(test_warnings_about_materials),
       cmocka_unit_test(test_warnings_about_the_setting),
       cmocka_unit_test(test_warnings_about_fibres),
+      cmocka_unit_test(test_a_boundary_as_epicardium),
       cmocka_unit_test(test_active_without_fibres_is_an_error),
       cmocka_unit_test(test_relaxation_of_any_law),
       cmocka_unit_test(test_run_warns_too),

@@ -129,7 +129,8 @@ GROUP(static, constant, -1);
 
 static const vsc_row helix_rows[] = {
     {"endo", NAME(vsc_fiber_def, endo), .text = "endo", .meaning = "surface where the wall begins"},
-    {"epi", NAME(vsc_fiber_def, epi), .text = "boundary", .meaning = "surface where it ends"},
+    {"epi", NAME(vsc_fiber_def, epi), .text = "epi",
+     .meaning = "surface where it ends, without the base; boundary: all but endo"},
     {"endo_angle", QUANTITY(vsc_fiber_def, endo_angle, VSC_ANGLE), .text = "60 deg",
      .meaning = "helix angle at endo, from the circumference towards the base"},
     {"epi_angle", QUANTITY(vsc_fiber_def, epi_angle, VSC_ANGLE), .text = "-60 deg",

@@ -65,6 +65,11 @@ vsc_status vsc_select_nodes(const vsc_mesh *mesh, const vsc_selector *selector,
 vsc_status vsc_select_surface(const vsc_mesh *mesh, const vsc_surface *boundary,
                               const vsc_selector *selector, vsc_surface *surface, vsc_error *error);
 
+// The triangles of a surface that another one of the same boundary does not have, perhaps none; the middles of
+// their edges where it has them. `rest` is filled and owned by the caller.
+vsc_status vsc_surface_without(const vsc_surface *surface, const vsc_surface *other, vsc_surface *rest,
+                               vsc_error *error);
+
 void vsc_node_set_free(vsc_node_set *set);        // frees the content
 void vsc_surface_free(vsc_surface *surface);      // frees the content
 

@@ -147,6 +147,11 @@ static void warn_fibers(writer *w, const vsc_problem *problem)
          "wrong scale or "
          "angle convention",
          f->coherence[1]);
+  if (f->meeting > 0)
+    warn(w,
+         "fibers: endo and epi meet at %zu nodes, where the depth jumps from 0 to 1 and fibres turn at once: where the "
+         "base lies between them, let epi name the outside alone",
+         f->meeting);
   if (f->constant)
     warn(w, "fibers: the array holds one and the same direction everywhere: perhaps a dummy");
   if (!def->sense_kept && f->opposed > f->elements / 50)
