@@ -170,6 +170,11 @@ static void bad_inclusions_are_refused(void **state)
   vsc_copy_name(inclusion.material, "stiff");
   body.materials[1].active = body.materials[0].active;
   expect_refusal(&body, "passive");
+  body.materials[1].active.kind = VSC_ACTIVE_NONE;
+  body.materials[0].law = VSC_LAW_NEO_HOOKEAN;
+  body.materials[0].active.kind = VSC_ACTIVE_NONE;
+  body.materials[0].shear = 1;
+  expect_refusal(&body, "make up 0.5 of element 3 of material soft, and only springs are mixed by volume");
   body_close(&body);
 }
 

@@ -8,8 +8,8 @@
 #include "model/model.h"
 
 // Sets mixed[e] (element_count) to 1 for elements with an inclusion of more than nothing. VSC_INPUT
-// for an unknown material, one with another law or with inclusions, a missing array, and for
-// fractions outside [0, 1] or of a sum above 1.
+// for an unknown material, one with another law or with inclusions, a missing array, for
+// fractions outside [0, 1] or of a sum above 1, and where such an element's own law is not springs.
 vsc_status vsc_mixture_find(const vsc_mesh *mesh, const vsc_definition *definition,
                             const uint32_t *material_of, uint8_t *mixed, vsc_error *error);
 

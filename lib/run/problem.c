@@ -93,9 +93,7 @@ static vsc_status include_vessels(vsc_definition *definition, vsc_error *error)
 {
   for (size_t m = 0; m < definition->material_count; m++) {
     vsc_material_def *tissue = &definition->materials[m];
-    if (tissue->law != VSC_LAW_SPRINGS || tissue->inclusion_count > 0 ||
-        !vsc_takes_elements(definition, m))
-      continue;
+    if (tissue->inclusion_count > 0 || !vsc_takes_elements(definition, m)) continue;
     vsc_free(tissue->inclusions);
     if (!VSC_NEW(tissue->inclusions, definition->vessel_count))
       return vsc_fail_memory(error, "the vessels of a material");
