@@ -232,7 +232,7 @@ static void warn_setting(writer *w, const vsc_problem *problem)
   if (model->held_count == 0 && model->obstacle_count == 0 && model->robin_count == 0 && driven &&
       model->solve.kind != VSC_SOLVE_EQUILIBRIUM)
     warn(w, "supports: nothing is held, so the load will carry the body away");
-  char ways[128];
+  char ways[VSC_FREE_TEXT];
   const bool rests = model->solve.kind == VSC_SOLVE_EQUILIBRIUM;
   if ((rests || problem->scene->prestress.loaded) && vsc_free_motions(model, ways, sizeof ways) > 0)
     warn(w, "%s: the body is free to %s, so forces that push it there never balance%s: hold it by supports or robin",
