@@ -157,8 +157,8 @@ typedef struct vsc_pair_def {
   double modulus;  // G, kPa
 } vsc_pair_def;
 
-// A part of each element's volume that is another material: moduli are mixed by volume,
-// E = (1 - sum phi) E_own + sum phi_j E_j (Voigt).
+// A part of each element's volume that is another material: moduli and densities are mixed by volume,
+// E = (1 - sum phi) E_own + sum phi_j E_j (Voigt). Where phi > 0 both laws are SPRINGS.
 typedef struct vsc_inclusion_def {
   char material[VSC_NAME];        // the other material's name
   char fraction_array[VSC_NAME];  // element array of phi in [0, 1]

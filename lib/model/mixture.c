@@ -93,6 +93,29 @@ vsc_status vsc_mixture_find(const vsc_mesh *mesh, const vsc_definition *definiti
   return VSC_OK;
 }
 
+vsc_status vsc_mixture_densities(const vsc_mesh *mesh, const vsc_definition *definition, const uint32_t *material_of,
+                                 double *density, vsc_error *error)
+{
+  for (size_t e = 0; e < mesh->element_count; e++) density[e] = definition->materials[material_of[e]].density;
+  for (size_t m = 0; m < definition->material_count; m++) {
+    inclusion found[MOST];
+    const vsc_material_def *own = &definition->materials[m];
+    const vsc_status status = find_inclusions(mesh, definition, m, found, error);
+    if (status != VSC_OK) return status;
+    for (size_t k = 0; k < own->inclusion_count; k++) {
+      const double more = definition->materials[found[k].other].density - own->density;
+      if (more != 0 && definition->masses == VSC_MASS_CONSISTENT)
+        return vsc_fail(error, VSC_INPUT,
+                        "materials[%zu].inclusions[%zu]: '%s' has the density %g mg/mm3, its tissue %g, and masses: "
+                        "consistent mixes none: take masses: lumped, or one density",
+                        m, k, own->inclusions[k].material, own->density + more, own->density);
+      for (size_t e = 0; e < mesh->element_count; e++)
+        if (material_of[e] == m) density[e] += found[k].fractions[e] * more;
+    }
+  }
+  return VSC_OK;
+}
+
 static void add_moduli(const vsc_material *material, double part, int lane, vsc_mixture *mixture)
 {
   for (int a = 0; a < 3; a++) {
