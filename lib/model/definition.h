@@ -347,8 +347,8 @@ typedef struct vsc_solve_def {
                      // default 1e-4
   double tolerance;  // of the residual, as a part of the forces at work; 0 (default): 1e-6, but IMPLICIT without a
                      // given step as accuracy, from 1e-6 to 1e-4
-  double incompressible;  // EQUILIBRIUM by Newton: largest |J - 1| of shared volumes, by multipliers; 0: as K
-                          // has it (default)
+  double incompressible;  // EQUILIBRIUM by Newton: largest |J - 1| of volumes that tets share and of other
+                          // elements, by multipliers; 0: as K has it (default)
 } vsc_solve_def;
 
 typedef struct vsc_definition {

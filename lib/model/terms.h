@@ -23,6 +23,7 @@ vsc_status vsc_terms_masses(const vsc_mesh *mesh, const vsc_definition *definiti
                             const uint32_t *material_of, vsc_model *model, vsc_error *error);
 
 // V_n = sum_e V_e / 4 and K_n = sum_e K_e V_e / 4 / V_n over the tets e of law SPRINGS round node n.
+// VSC_INPUT for solver.incompressible and tets that share no volume, which have no multiplier.
 vsc_status vsc_terms_volume_groups(vsc_model *model, vsc_error *error);
 
 // The edge frames of smoothed tets (smoothing.c), after activation. VSC_INPUT where they are wanted and no element is
