@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/mem.h"
 #include "base/vec3.h"
 #include "fibers/ellipsoid.h"
 #include "fibers/helix.h"
@@ -205,9 +206,24 @@ static const vsc_surface *find_surface(const vsc_surface *surfaces, size_t count
   return NULL;
 }
 
+// How many nodes two surfaces share.
+static vsc_status count_shared(const vsc_mesh *mesh, const vsc_surface *a, const vsc_surface *b, size_t *count,
+                               vsc_error *error)
+{
+  uint8_t *on;
+  if (!VSC_NEW(on, mesh->node_count)) return vsc_fail_memory(error, "the rim of the wall");
+  for (size_t k = 0; k < 3 * a->count; k++) on[a->triangles[k]] = 1;
+  for (size_t k = 0; k < 3 * b->count; k++) {
+    *count += on[b->triangles[k]];
+    on[b->triangles[k]] = 0;
+  }
+  vsc_free(on);
+  return VSC_OK;
+}
+
 static vsc_status from_depth(const vsc_mesh *mesh, const vsc_fiber_def *definition,
                              const vsc_surface *surfaces, size_t count, vsc_axes *axes,
-                             vsc_error *error)
+                             vsc_fiber_report *report, vsc_error *error)
 {
   if (definition->source == VSC_FIBER_ELLIPSOID) {
     const vsc_status status = vsc_ellipsoid_check(definition, error);
@@ -217,14 +233,25 @@ static vsc_status from_depth(const vsc_mesh *mesh, const vsc_fiber_def *definiti
   if (endo == NULL) return VSC_INPUT;
   const vsc_surface *epi = find_surface(surfaces, count, definition->epi, "epicardium", error);
   if (epi == NULL) return VSC_INPUT;
-  return vsc_fibers_helix(mesh, definition, endo, epi, axes, error);
+  vsc_surface outside;
+  vsc_status status = vsc_surface_without(epi, endo, &outside, error);
+  if (status == VSC_OK && outside.count == 0)
+    status = vsc_fail(error, VSC_INPUT,
+                      "helix: every triangle of epi, '%s', is one of endo, '%s', too: let epi name the outside of "
+                      "the wall",
+                      epi->name, endo->name);
+  if (status == VSC_OK) status = count_shared(mesh, endo, &outside, &report->meeting, error);
+  if (status == VSC_OK) status = vsc_fibers_helix(mesh, definition, endo, &outside, axes, error);
+  vsc_surface_free(&outside);
+  return status;
 }
 
 static vsc_status from_source(const vsc_mesh *mesh, const vsc_fiber_def *definition,
                               const vsc_surface *surfaces, size_t count, vsc_axes *axes,
                               vsc_fiber_report *report, vsc_error *error)
 {
-  if (vsc_fiber_needs_surfaces(definition)) return from_depth(mesh, definition, surfaces, count, axes, error);
+  if (vsc_fiber_needs_surfaces(definition))
+    return from_depth(mesh, definition, surfaces, count, axes, report, error);
   switch (definition->source) {
     case VSC_FIBER_NONE: return VSC_OK;
     case VSC_FIBER_MAP: return from_map(mesh, &definition->map, axes, report, error);

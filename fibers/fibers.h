@@ -7,10 +7,10 @@
 #include "mesh/select.h"
 
 // Gives every element of `mesh` its axes. `surfaces` (surface_count) are the named surfaces, of which
-// HELIX uses two. Reads the voxel map when there is one. On success *axes is owned by the caller
-// and `report` (not NULL) is filled. Sheet and normal: by the rule of vsc_axes_complete, with the
-// sheet hint that the source gives (ARRAYS: the sheet array; HELIX, ELLIPSOID: the transmural axis; see
-// fibers/synthetic.h).
+// HELIX uses two: triangles of both are the endocardium's, and an epicardium that has no others is VSC_INPUT. Reads
+// the voxel map when there is one. On success *axes is owned by the caller and `report` (not NULL) is filled.
+// Sheet and normal: by the rule of vsc_axes_complete, with the sheet hint that the source gives (ARRAYS: the
+// sheet array; HELIX, ELLIPSOID: the transmural axis; see fibers/synthetic.h).
 //
 // ARRAYS: a missing fibre array is VSC_INPUT that names those there are; so is a missing sheet
 // array, unless its name is the default "sheet": then sheets follow the rule. Fibres that are zero

@@ -27,6 +27,7 @@ typedef struct vsc_fiber_report {
   size_t invalid_sheets;  // ARRAYS: zero or non-finite sheet vectors, or parallel to the fibre
                           // (within 1 degree), of elements with a fibre: completed by rule
   size_t opposed;         // ARRAYS on nodes: elements at whose nodes fibres differ by more than 90 degrees
+  size_t meeting;         // HELIX, ELLIPSOID with surfaces: nodes on both of them, where the depth jumps
   bool constant;  // ARRAYS: all fibres are the same axis (within 0.06 degrees): perhaps a dummy
   double worst_sheet_angle;  // ARRAYS: largest deviation of sheet and fibre from a right angle,
                              // degrees

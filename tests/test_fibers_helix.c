@@ -204,6 +204,55 @@ static void ventricle_has_its_angles(void **state)
   vsc_mesh_free(mesh);
 }
 
+// The boundary as epicardium is what it has beside the endocardium, here the side z = 0 of a block: below the middle of
+// the block the wall begins there, and the 16 nodes round that side are on both. A surface that has nothing else is
+// refused.
+static void a_boundary_begins_where_the_endocardium_ends(void **state)
+{
+  (void)state;
+  vsc_mesh *mesh = NULL;
+  const vsc_block_shape shape = {.cells = {4, 4, 2}, .size = {40, 40, 3}, .tets_per_cell = 6};
+  assert_int_equal(vsc_block_mesh(&shape, &mesh, NULL), VSC_OK);
+  vsc_surface surfaces[3];
+  select_surface(mesh, "z0", &surfaces[0]);
+  select_surface(mesh, "z0", &surfaces[1]);
+  assert_int_equal(vsc_boundary(mesh, &surfaces[2], NULL), VSC_OK);
+  vsc_copy_name(surfaces[1].name, "again");
+  vsc_surface rest;
+  assert_int_equal(vsc_surface_without(&surfaces[2], &surfaces[0], &rest, NULL), VSC_OK);
+  assert_int_equal(surfaces[0].count, 32);
+  assert_int_equal(rest.count, surfaces[2].count - 32);
+  for (size_t t = 0; t < rest.count; t++) {
+    double height = 0;
+    for (int i = 0; i < 3; i++) height += mesh->nodes[3 * (size_t)rest.triangles[3 * t + (size_t)i] + 2];
+    assert_true(height > 0);
+  }
+  vsc_fiber_def definition = helix_definition();
+  vsc_axes *axes = NULL;
+  vsc_fiber_report report;
+  vsc_error error = {.text = ""};
+  vsc_copy_name(definition.endo, "z0");
+  vsc_copy_name(definition.epi, "boundary");
+  definition.long_axis[1] = 1;
+  assert_int_equal(vsc_fibers_make(mesh, &definition, surfaces, 3, &axes, &report, &error), VSC_OK);
+  assert_int_equal(report.meeting, 16);
+  for (size_t e = 0; e < mesh->element_count; e++) {
+    double at[3];
+    vsc_mesh_element_centre(mesh, e, at);
+    if (fabs(at[0] - 20) > 10 || fabs(at[1] - 20) > 10 || at[2] > 1.5) continue;
+    const double *frame = vsc_axes_frame(axes, e, 0), depth = at[2] / 3;
+    assert_true(frame[5] > 0.99);
+    assert_close(atan(frame[1] / frame[0]) / degree, 60 - 120 * depth, 0, 2);
+  }
+  vsc_axes_free(axes);
+  vsc_copy_name(definition.epi, "again");
+  assert_int_equal(vsc_fibers_make(mesh, &definition, surfaces, 3, &axes, &report, &error), VSC_INPUT);
+  assert_non_null(strstr(error.text, "every triangle of epi, 'again', is one of endo, 'z0', too"));
+  vsc_surface_free(&rest);
+  for (int s = 0; s < 3; s++) vsc_surface_free(&surfaces[s]);
+  vsc_mesh_free(mesh);
+}
+
 static void missing_surfaces_and_memory(void **state)
 {
   (void)state;
@@ -281,6 +330,7 @@ int main(void)
       cmocka_unit_test(surfaces_may_share_nodes),
       cmocka_unit_test(a_loose_part_is_refused),
       cmocka_unit_test(ventricle_has_its_angles),
+      cmocka_unit_test(a_boundary_begins_where_the_endocardium_ends),
       cmocka_unit_test(missing_surfaces_and_memory),
       cmocka_unit_test(a_flat_tet_takes_its_neighbours_gradient),
   };

@@ -87,6 +87,33 @@ static void a_voxel_is_a_hexahedron(void **state)
   vsc_mesh_free(mesh);
 }
 
+// Volumes that no element can be made of are no holes: the file is refused. Faces may lie about.
+static void other_volumes_are_refused(void **state)
+{
+  (void)state;
+  const struct {
+    int type;
+    const char *words;  // NULL: taken
+  } cases[] = {{41, "1 cells of VTK type 41 would be left out"}, {25, "1 quadratic hexahedra"}, {7, NULL}};
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    char text[1000];
+    vsc_mesh *mesh = NULL;
+    vsc_error error = {0};
+    snprintf(text, sizeof text,
+             "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 12 float\n"
+             "0 0 0  1 0 0  1 1 0  0 1 0  0 0 1  1 0 1  1 1 1  0 1 1  0 0 2  1 0 2  1 1 2  0 1 2\nCELLS 2 18\n"
+             "8 0 1 2 3 4 5 6 7\n8 4 5 6 7 8 9 10 11\nCELL_TYPES 2\n12\n%d\n",
+             cases[k].type);
+    const vsc_status status = vsc_vtk_read_mesh(scratch_text("others.vtk", text), 1, &mesh, &error);
+    assert_int_equal(status, cases[k].words == NULL ? VSC_OK : VSC_INPUT);
+    if (cases[k].words == NULL)
+      assert_int_equal(mesh->report.ignored_cells, 1);
+    else if (strstr(error.text, cases[k].words) == NULL || strstr(error.text, "Tetrahedralize") == NULL)
+      fail_msg("\"%s\" not in \"%s\"", cases[k].words, error.text);
+    vsc_mesh_free(mesh);
+  }
+}
+
 // Writes the mesh as an ASCII legacy file: behind each third element a vertex, behind each fourth a
 // triangle on nodes 0, 1, 2; array `number` is the cell's number. `swapped` writes wedges as other
 // programs do, their triangles exchanged.
@@ -276,7 +303,8 @@ int main(void)
       cmocka_unit_test(a_hybrid_mesh_comes_back), cmocka_unit_test(a_legacy_file_of_all_kinds),
       cmocka_unit_test(arrays_keep_their_places), cmocka_unit_test(a_surface_is_read),
       cmocka_unit_test(a_surface_comes_back),     cmocka_unit_test(quads_select_the_boundary),
-      cmocka_unit_test(a_voxel_is_a_hexahedron),  cmocka_unit_test(a_wedge_as_vtk_draws_it),
+      cmocka_unit_test(a_voxel_is_a_hexahedron),
+    cmocka_unit_test(other_volumes_are_refused),  cmocka_unit_test(a_wedge_as_vtk_draws_it),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }

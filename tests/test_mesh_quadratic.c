@@ -257,6 +257,39 @@ static void surfaces_have_middles(void **state)
   vsc_mesh_free(mesh);
 }
 
+static size_t nodes_with(const vsc_mesh *mesh, const char *array, double low, double high)
+{
+  vsc_selector selector = {.kind = VSC_SELECT_NODE_ARRAY, .low = low, .high = high};
+  vsc_node_set set;
+  vsc_copy_name(selector.name, "set");
+  vsc_copy_name(selector.array, array);
+  if (vsc_select_nodes(mesh, &selector, NULL, 0, &set, NULL) != VSC_OK) return 0;
+  const size_t count = set.count;
+  vsc_node_set_free(&set);
+  return count;
+}
+
+// A range that holds means, and a label that is one: 25 places on the side, none between labels 1 and 3.
+static void sets_by_arrays_hold_no_means(void **state)
+{
+  (void)state;
+  vsc_mesh *mesh = box_with_arrays();
+  double *label = vsc_arrays_add(&mesh->node_data, "label", 1, mesh->node_count)->values;
+  for (size_t n = 0; n < mesh->node_count; n++) label[n] = mesh->nodes[3 * n] == 0 ? 1 : 3;
+  raise_mesh(&mesh);
+  assert_int_equal(nodes_with(mesh, "side", 1, 1), 25);
+  assert_int_equal(nodes_with(mesh, "side", 0.5, 1.5), 25);
+  assert_int_equal(nodes_with(mesh, "label", 2, 2), 0);
+  // 5 x 5 places on each of the planes x = 1, 1.5, 2
+  assert_int_equal(nodes_with(mesh, "label", 3, 3), 5 * 5 * 3);
+  assert_int_equal(nodes_with(mesh, "label", 1, 3), 125);
+  // as in a file: values of its own
+  mesh->report.file_nodes = mesh->node_count;
+  assert_int_equal(nodes_with(mesh, "side", 0.5, 1.5), 50);
+  assert_int_equal(nodes_with(mesh, "label", 2, 2), 25);
+  vsc_mesh_free(mesh);
+}
+
 // Errors of volumes of a wall between two half ellipsoids, mm^3.
 typedef struct wall_errors {
   double tissue, cavity;
@@ -382,6 +415,7 @@ int main(void)
       cmocka_unit_test(left_handed_ones_are_turned),
       cmocka_unit_test(it_is_split_in_eight),
       cmocka_unit_test(surfaces_have_middles),
+      cmocka_unit_test(sets_by_arrays_hold_no_means),
       cmocka_unit_test(bent_walls_have_the_right_volume),
       cmocka_unit_test(wrong_ellipsoids_are_refused),
       cmocka_unit_test(quality_is_that_of_the_corners),

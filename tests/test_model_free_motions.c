@@ -77,12 +77,55 @@ static void an_oblique_bar_slides_and_turns(void **state)
   body_close(&body);
 }
 
+// Two blocks of 2 mm, 5 mm between them. Node arrays: `held` is 1 on all of the first, `all` on a side of each.
+static vsc_mesh *two_blocks(void)
+{
+  vsc_mesh *one = block_of(2, 2, 2, 1, 0), *both;
+  const size_t nodes = one->node_count, tets = one->element_count;
+  both = vsc_mesh_create(2 * nodes, 2 * tets, 0);
+  vsc_arrays_add(&both->node_data, "held", 1, 2 * nodes);
+  vsc_arrays_add(&both->node_data, "all", 1, 2 * nodes);
+  for (size_t n = 0; n < 2 * nodes; n++) {
+    double *x = both->nodes + 3 * n;
+    memcpy(x, one->nodes + 3 * (n % nodes), 3 * sizeof *x);
+    if (n >= nodes) x[0] += 7;
+    both->node_data.items[0].values[n] = n < nodes;
+    both->node_data.items[1].values[n] = x[0] == 0 || x[0] == 7;
+  }
+  for (size_t k = 0; k < 8 * tets; k++)
+    both->corners[k] = one->corners[k % (4 * tets)] + (uint32_t)(k < 4 * tets ? 0 : nodes);
+  vsc_mesh_free(one);
+  if (vsc_mesh_clean(both, "blocks", NULL) != VSC_OK) fail_msg("two blocks");
+  return both;
+}
+
+// One that nothing holds beside one that is held; each held for itself.
+static void a_loose_part_is_found(void **state)
+{
+  (void)state;
+  for (int both = 0; both < 2; both++) {
+    small_body body;
+    char text[VSC_FREE_TEXT];
+    body_open(&body, two_blocks(), 50);
+    body_hold(&body, both ? "all" : "held", 1, 1, 1);
+    body_build(&body);
+    assert_int_equal(vsc_free_motions(body.model, text, sizeof text), both ? 0 : 6);
+    static const char words[] = "move along x, y, z and turn about x, y, z in a part of it, 48 elements with node ";
+    if (both)
+      assert_string_equal(text, "");
+    else if (strncmp(text, words, strlen(words)) != 0 || strstr(text, " that is joined to nothing else") == NULL)
+      fail_msg("\"%s\"", text);
+    body_close(&body);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(supports_leave_what_they_do_not_hold),
       cmocka_unit_test(springs_on_a_surface_hold_too),
       cmocka_unit_test(an_oblique_bar_slides_and_turns),
+      cmocka_unit_test(a_loose_part_is_found),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -136,6 +136,43 @@ static void the_energy_of_mixed_active_springs_balances(void **state)
   body_close(&body);
 }
 
+// Masses and weights are mixed by volume: those of 0.3 stiff lie between those of none and all.
+static void masses_are_mixed_by_volume(void **state)
+{
+  (void)state;
+  for (int kind = 0; kind < 3; kind++) {
+    vsc_mesh *mesh = mesh_of((kinds_mesh[]){ALL_TETS, ALL_KINDS, ALL_TETS10}[kind], 2, 20);
+    const double fractions[3] = {0, 1, 0.3};
+    double *weights[3];
+    vsc_array *part = vsc_arrays_add(&mesh->element_data, "part", 1, mesh->element_count);
+    for (int f = 0; f < 3; f++) {
+      random_body body;
+      vsc_inclusion_def inclusion;
+      open_mixed(&body, mesh, &inclusion, false, 21);
+      body.materials[0].density = 1;
+      body.materials[1].density = 20;
+      body.definition.gravity[2] = -0.01;
+      // with int rho N_i g of quadratic tets
+      if (kind == 2) body.definition.solve.kind = VSC_SOLVE_EQUILIBRIUM;
+      for (size_t e = 0; e < mesh->element_count; e++) part->values[e] = fractions[f];
+      body_build(&body);
+      weights[f] = numbers(mesh->node_count);
+      for (size_t n = 0; n < mesh->node_count; n++)
+        weights[f][body.model->mesh_node[n]] = body.model->weight[4 * n + 2];
+      double volume = 0;
+      for (size_t e = 0; e < mesh->element_count; e++) volume += vsc_mesh_element_volume(mesh, e);
+      assert_close(body.model->total_mass, volume * (1 + 19 * fractions[f]), 1e-13, 0);
+      body.mesh = NULL;
+      body_close(&body);
+    }
+    for (size_t n = 0; n < mesh->node_count; n++)
+      assert_close(weights[2][n], 0.7 * weights[0][n] + 0.3 * weights[1][n], 0,
+                   1e-14 * largest_of(weights[1], mesh->node_count));
+    for (int f = 0; f < 3; f++) vsc_free(weights[f]);
+    vsc_mesh_free(mesh);
+  }
+}
+
 static void expect_refusal(random_body *body, const char *text)
 {
   vsc_error error;
@@ -170,6 +207,16 @@ static void bad_inclusions_are_refused(void **state)
   vsc_copy_name(inclusion.material, "stiff");
   body.materials[1].active = body.materials[0].active;
   expect_refusal(&body, "passive");
+  body.materials[1].active.kind = VSC_ACTIVE_NONE;
+  body.definition.masses = VSC_MASS_CONSISTENT;
+  body.definition.solve.kind = VSC_SOLVE_IMPLICIT;
+  body.materials[1].density = 3;
+  expect_refusal(&body, "take masses: lumped, or one density");
+  body.definition.masses = VSC_MASS_LUMPED;
+  body.materials[0].law = VSC_LAW_NEO_HOOKEAN;
+  body.materials[0].active.kind = VSC_ACTIVE_NONE;
+  body.materials[0].shear = 1;
+  expect_refusal(&body, "make up 0.5 of element 3 of material soft, and only springs are mixed by volume");
   body_close(&body);
 }
 
@@ -179,6 +226,7 @@ int main(void)
       cmocka_unit_test(forces_are_mixed_by_volume),
       cmocka_unit_test(an_inclusion_of_everything_is_the_other_material),
       cmocka_unit_test(the_energy_of_mixed_active_springs_balances),
+      cmocka_unit_test(masses_are_mixed_by_volume),
       cmocka_unit_test(bad_inclusions_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -236,6 +236,44 @@ static void test_warnings_about_fibres(void **state)
   assert_int_equal(warnings(), 0);
 }
 
+// `boundary` may be the epicardium: what it has beside the endocardium, which is told where they meet.
+static void test_a_boundary_as_epicardium(void **state)
+{
+  (void)state;
+  assert_warns("--set 'fibers={source: helix, helix: {endo: end, epi: boundary}}'", "endo and epi meet at 16 nodes");
+  assert_warns("--set 'fibers={source: helix, helix: {endo: end, epi: skin}}'", "endo and epi meet at 16 nodes");
+  assert_int_equal(shell("$V check block.yaml --set 'fibers={source: helix, helix: {endo: end, epi: end}}'"), 2);
+  assert_holds(complained, "let epi name the outside of the wall");
+  assert_int_equal(shell("$V check block.yaml --set 'fibers={source: helix, helix: {endo: end, epi: epi}}'"), 2);
+  assert_holds(complained, "no surface is named");
+}
+
+// A vessel of springs that goes through a tissue of another law.
+static void test_a_vessel_in_another_law(void **state)
+{
+  (void)state;
+  save_text("line.vtk", "# vtk DataFile Version 3.0\nl\nASCII\nDATASET POLYDATA\nPOINTS 2 float\n-1 5 5 21 5 5\n"
+                        "LINES 1 3\n2 0 1\n");
+  for (int springs = 1; springs >= 0; springs--) {
+    char scene[1024];
+    snprintf(scene, sizeof scene,
+             "mesh: {file: block.vtu, unit: mm}\n"
+             "fibers: {source: constant, constant: {fiber: [1, 0, 0]}}\n"
+             "materials:\n"
+             "  - {name: liver, %s, volume_modulus: 50 kPa, stabilization: 5 kPa}\n"
+             "  - {name: wall, axial: {f: 60 kPa, s: 60 kPa, n: 60 kPa}, angular: {fs: 9 kPa, sn: 9 kPa, nf: 9 kPa},\n"
+             "     volume_modulus: 90 kPa, stabilization: 5 kPa}\n"
+             "vessels:\n  - {name: vein, file: line.vtk, unit: mm, radius: 2 mm, material: wall}\n"
+             "gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]\ntime: {end: 5 ms}\noutput: {frames: 5 ms, signals: 5 ms}\n",
+             springs ? "axial: {f: 5 kPa, s: 5 kPa, n: 5 kPa}, angular: {fs: 5 kPa, sn: 5 kPa, nf: 5 kPa}"
+                     : "law: neo_hookean, neo_hookean: {shear: 5 kPa}");
+    save_text("vein.yaml", scene);
+    if (shell("$V check vein.yaml") != (springs ? 0 : 2)) fail_msg("%s", complained);
+  }
+  assert_holds(complained, "materials[0].law: inclusions and vessels (wall) make up ");
+  assert_holds(complained, " of material liver, and only springs are mixed by volume: use law: springs");
+}
+
 static void test_active_without_fibres_is_an_error(void **state)
 {
   (void)state;
@@ -283,6 +321,8 @@ int main(void)
       cmocka_unit_test(test_warnings_about_materials),
       cmocka_unit_test(test_warnings_about_the_setting),
       cmocka_unit_test(test_warnings_about_fibres),
+      cmocka_unit_test(test_a_boundary_as_epicardium),
+      cmocka_unit_test(test_a_vessel_in_another_law),
       cmocka_unit_test(test_active_without_fibres_is_an_error),
       cmocka_unit_test(test_relaxation_of_any_law),
       cmocka_unit_test(test_run_warns_too),

@@ -212,6 +212,21 @@ static void multipliers_keep_volumes(void **state)
   }
 }
 
+// Tets with volumes of their own have no multipliers.
+static void multipliers_of_single_tets_are_refused(void **state)
+{
+  (void)state;
+  small_body body;
+  vsc_error error;
+  body_open(&body, block_of(2, 2, 2, 1, 0), 200);
+  body.definition.solve.kind = VSC_SOLVE_EQUILIBRIUM;
+  body.definition.solve.incompressible = 1e-4;
+  assert_int_equal(vsc_model_build(body.mesh, NULL, &body.definition, &body.model, &error), VSC_INPUT);
+  assert_non_null(strstr(error.text, "solver.incompressible: linear tetrahedra that each keep a volume of their own"));
+  assert_non_null(strstr(error.text, "use volume: nodal, or mesh.order: 2"));
+  body_close(&body);
+}
+
 // ---- Newton's method
 
 static void open_bar(small_body *body, double gravity)
@@ -443,6 +458,7 @@ int main(void)
       cmocka_unit_test(springs_all_round_are_as_good_as_supports),
       cmocka_unit_test(relaxation_rests_where_nothing_pulls),
       cmocka_unit_test(multipliers_keep_volumes),
+      cmocka_unit_test(multipliers_of_single_tets_are_refused),
       cmocka_unit_test(newton_converges_quadratically),
       cmocka_unit_test(equilibrium_does_not_depend_on_the_way),
       cmocka_unit_test(a_load_too_large_is_told_and_leaves_the_last_good_state),

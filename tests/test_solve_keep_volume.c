@@ -3,6 +3,7 @@
 // time, also beside contact.
 #include "kept_body.h"
 #include "pressed_body.h"
+#include "sheet_mesh.h"
 #include "solve/keep_volume.h"
 
 static void sums_of(const small_body *body, double momentum[3], double turning[3])
@@ -240,6 +241,18 @@ static void what_cannot_be_kept_is_refused(void **state)
   body.definition.set_count = body.definition.support_count = 1;
   body_build(&body);
   assert_int_equal(body.model->kept.count, 0);
+  body_close(&body);
+  // triangles alone
+  vsc_membrane_def membrane = vsc_default_membrane();
+  body_open(&body, sheet_mesh(2, 2, 1, 1, CUT_BY_TURNS, 0, 1), 0);
+  vsc_copy_name(membrane.surface, "triangles");
+  membrane.thickness = membrane.axial[0] = membrane.axial[1] = 1;
+  body.definition.material_count = 0;
+  body.definition.membranes = &membrane;
+  body.definition.membrane_count = 1;
+  body.definition.kept_volume = VSC_KEEP_TOTAL;
+  assert_int_equal(vsc_model_build(body.mesh, NULL, &body.definition, &model, &error), VSC_INPUT);
+  assert_non_null(strstr(error.text, "keep_volume: volumes of elements are kept, and the mesh has none"));
   body_close(&body);
 }
 

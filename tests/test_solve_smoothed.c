@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Edge-smoothed tets: the axes of an edge, equilibrium of a bending bar, and what is refused.
 #include "mech/observe.h"
+#include "mesh/quadratic.h"
 #include "small_body.h"
 #include "solve/solve.h"
 
@@ -139,6 +140,21 @@ static void what_cannot_be_smoothed_is_refused(void **state)
   }
 }
 
+// Quadratic tets alone leave nothing to smooth.
+static void a_mesh_without_linear_tets_is_refused(void **state)
+{
+  (void)state;
+  small_body body;
+  vsc_error error;
+  vsc_mesh *mesh = block_of(2, 2, 2, 1, 0);
+  assert_int_equal(vsc_mesh_raise(&mesh, "block", NULL), VSC_OK);
+  body_open(&body, mesh, 20);
+  body.definition.tets = VSC_TETS_SMOOTHED;
+  assert_int_equal(vsc_model_build(body.mesh, NULL, &body.definition, &body.model, &error), VSC_INPUT);
+  assert_non_null(strstr(error.text, "tets: smoothed smooths linear tetrahedra, and the mesh has none"));
+  body_close(&body);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -147,6 +163,7 @@ int main(void)
       cmocka_unit_test(smoothed_equilibrium_does_not_depend_on_the_linear_solver),
       cmocka_unit_test(smoothed_tets_without_damping_keep_their_energy),
       cmocka_unit_test(what_cannot_be_smoothed_is_refused),
+      cmocka_unit_test(a_mesh_without_linear_tets_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -82,7 +82,7 @@ static const vsc_row solver_rows[] = {
     {"linear", CHOICE(vsc_definition, solve.linear, linear_kinds), .text = "auto",
      .meaning = "systems: auto, direct (a factor, reused), iterative (little memory)"},
     {"incompressible", NUMBER(vsc_definition, solve.incompressible), .text = "0",
-     .meaning = "equilibrium: largest |J - 1| of shared volumes, by multipliers; 0: as K has it"},
+     .meaning = "equilibrium: largest |J - 1|, by multipliers (tets: volume: nodal); 0: as K has it"},
     {"tolerance", NUMBER(vsc_definition, solve.tolerance), .text = "0",
      .meaning = "of the residual, part of the forces at work; 0: 1e-6, implicit: as accuracy, at most 1e-4"},
 };

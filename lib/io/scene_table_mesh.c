@@ -28,7 +28,7 @@ static const vsc_row vsc_node_set_group_rows[] = {
     {"name", NAME(vsc_selector, name), .needed = VSC_ALWAYS, .text = "*",
      .meaning = "what supports, loads and outputs call it"},
     {"node_array", NAME(vsc_selector, array), .selects = 1 + VSC_SELECT_NODE_ARRAY, .text = "*",
-     .meaning = "by a point array: the nodes with the value below"},
+     .meaning = "by a point array: the nodes with the value below (order: 2: and between two of them)"},
     {"triangle_array", NAME(vsc_selector, array), .selects = 1 + VSC_SELECT_TRIANGLE_ARRAY,
      .commented = true, .text = "surface",
      .meaning = "or by a cell array: the file's triangles with that value"},
@@ -129,7 +129,8 @@ GROUP(static, constant, -1);
 
 static const vsc_row helix_rows[] = {
     {"endo", NAME(vsc_fiber_def, endo), .text = "endo", .meaning = "surface where the wall begins"},
-    {"epi", NAME(vsc_fiber_def, epi), .text = "boundary", .meaning = "surface where it ends"},
+    {"epi", NAME(vsc_fiber_def, epi), .text = "epi",
+     .meaning = "surface where it ends, without the base; boundary: all but endo"},
     {"endo_angle", QUANTITY(vsc_fiber_def, endo_angle, VSC_ANGLE), .text = "60 deg",
      .meaning = "helix angle at endo, from the circumference towards the base"},
     {"epi_angle", QUANTITY(vsc_fiber_def, epi_angle, VSC_ANGLE), .text = "-60 deg",

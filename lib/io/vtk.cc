@@ -14,6 +14,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
+#include <vtkGenericCell.h>
 #include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
 #include <vtkNew.h>
@@ -59,15 +60,17 @@ std::string cell_kind(int type)
   static const std::map<int, const char *> names = {
     {VTK_EMPTY_CELL, "empty cells"}, {VTK_VERTEX, "vertices"}, {VTK_POLY_VERTEX, "point clouds"},
     {VTK_LINE, "lines"}, {VTK_POLY_LINE, "polylines"}, {VTK_TRIANGLE_STRIP, "triangle strips"},
-    {VTK_POLYGON, "polygons"}, {VTK_PIXEL, "pixels"}, {VTK_QUADRATIC_TRIANGLE, "quadratic triangles"}};
+    {VTK_POLYGON, "polygons"}, {VTK_PIXEL, "pixels"}, {VTK_QUADRATIC_TRIANGLE, "quadratic triangles"},
+    {VTK_POLYHEDRON, "polyhedra"}, {VTK_QUADRATIC_HEXAHEDRON, "quadratic hexahedra"},
+    {VTK_QUADRATIC_WEDGE, "quadratic wedges"}, {VTK_QUADRATIC_PYRAMID, "quadratic pyramids"}};
   const auto name = names.find(type);
   return name != names.end() ? name->second : "cells of VTK type " + std::to_string(type);
 }
 
-std::string describe_others(const sorted_cells &cells)
+std::string describe(const std::map<int, size_t> &cells)
 {
   std::string text;
-  for (const auto &[type, count] : cells.others)
+  for (const auto &[type, count] : cells)
     text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + cell_kind(type);
   return text;
 }
@@ -171,6 +174,21 @@ void ignore_lone_triangles(const unsigned char *types, sorted_cells &cells)
   cells.surface.erase(end, cells.surface.end());
 }
 
+// Volumes that would be holes.
+vsc_status refuse_volumes(const char *file, const sorted_cells &cells, vsc_error *error)
+{
+  std::map<int, size_t> volumes;
+  for (const auto &[type, count] : cells.others) {
+    const vtkSmartPointer<vtkCell> cell = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(type));
+    if (cell != nullptr && cell->GetCellDimension() == 3) volumes[type] = count;
+  }
+  if (volumes.empty()) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT,
+                  "%s: %.200s would be left out: volumes are linear tetrahedra, hexahedra, wedges and pyramids, or "
+                  "quadratic tetrahedra; cut the others into these (ParaView: Tetrahedralize)",
+                  file, describe(volumes).c_str());
+}
+
 vsc_status sort_cells(const char *file, vtkUnstructuredGrid *grid, sorted_cells &cells,
                       vsc_error *error)
 {
@@ -198,11 +216,11 @@ vsc_status sort_cells(const char *file, vtkUnstructuredGrid *grid, sorted_cells 
     }
   }
   ignore_lone_triangles(types->GetPointer(0), cells);
-  if (!cells.elements.empty() || !cells.surface.empty()) return VSC_OK;
+  if (!cells.elements.empty() || !cells.surface.empty()) return refuse_volumes(file, cells, error);
   return vsc_fail(error, VSC_INPUT,
                   "%s: holds no tetrahedra, hexahedra, wedges, pyramids or triangles (%.200s): mesh "
                   "the organ's volume",
-                  file, describe_others(cells).c_str());
+                  file, describe(cells.others).c_str());
 }
 
 // For each triangle the cell it comes from; a quad gives two.
@@ -242,7 +260,7 @@ vsc_status fill_mesh(const char *file, vtkUnstructuredGrid *grid, const sorted_c
   mesh->report.file_cells = count;
   mesh->report.ignored_cells = count - cells.elements.size() - cells.surface.size();
   std::snprintf(mesh->report.ignored_kinds, sizeof mesh->report.ignored_kinds, "%s",
-                describe_others(cells).c_str());
+                describe(cells.others).c_str());
   return vsc_mesh_clean(mesh, file, error);
 }
 

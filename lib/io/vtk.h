@@ -14,8 +14,8 @@
 // it (vsc_mesh_clean). Coordinates are multiplied by `unit` (mm per unit). Tetrahedra, hexahedra
 // (voxels too), wedges, pyramids and quadratic tetrahedra become elements; triangles, quads (cut in two
 // as vsc_boundary cuts them) and, beside quadratic tetrahedra, quadratic triangles become surface
-// triangles; other cells are counted and ignored. Wedges are expected as VTK
-// draws them, the first triangle turning counter-clockwise seen from outside; others are turned.
+// triangles; other points, lines and faces are counted and ignored, other volumes are VSC_INPUT. Wedges are expected as
+// VTK draws them, the first triangle turning counter-clockwise seen from outside; others are turned.
 // Every numeric point array comes as node data, every numeric cell array as element data and as
 // triangle data. VSC_INPUT with the file's name for a missing, truncated, empty or foreign file,
 // arrays of the wrong length and all that vsc_mesh_clean refuses. The caller owns *mesh.

@@ -101,6 +101,21 @@ static bool takes(const vsc_selector *selector, double value)
   return value >= selector->low && value <= selector->high;
 }
 
+// Nodes that vsc_mesh_raise put in the middle of edges have no value of their own, but a mean: they are taken
+// where both ends of their edge are.
+static void mark_middles(const vsc_mesh *mesh, uint8_t *marked)
+{
+  for (size_t e = 0; e < mesh->element_count; e++) {
+    const vsc_cell_kind *kind = vsc_mesh_kind(mesh, e);
+    const uint32_t *corner = vsc_mesh_corners(mesh, e);
+    for (int k = 0; k < kind->edge_count; k++) {
+      const uint32_t middle = corner[kind->vertices + k];
+      if (mesh->node_source[middle] < mesh->report.file_nodes) continue;
+      marked[middle] = marked[corner[kind->edges[k][0]]] && marked[corner[kind->edges[k][1]]];
+    }
+  }
+}
+
 static vsc_status mark_node_array(const vsc_mesh *mesh, const vsc_selector *selector,
                                   uint8_t *marked, vsc_error *error)
 {
@@ -108,6 +123,7 @@ static vsc_status mark_node_array(const vsc_mesh *mesh, const vsc_selector *sele
   const vsc_status status = find_array(&mesh->node_data, "node", selector, &array, error);
   if (status != VSC_OK) return status;
   for (size_t i = 0; i < mesh->node_count; i++) marked[i] = takes(selector, array->values[i]);
+  if (vsc_mesh_is_quadratic(mesh)) mark_middles(mesh, marked);
   return VSC_OK;
 }
 

@@ -12,9 +12,10 @@
 
 typedef enum vsc_select_kind {
   VSC_SELECT_BOUNDARY,    // the whole boundary
-  VSC_SELECT_NODE_ARRAY,  // nodes whose value of a node array lies in [low, high]
+  VSC_SELECT_NODE_ARRAY,  // nodes whose value of a node array lies in [low, high]; of those that mesh.order: 2
+                          // puts in the middle of edges, the ones both ends of whose edge do
   VSC_SELECT_TRIANGLE_ARRAY,  // triangles of the file whose cell array's value is in [low, high]
-  VSC_SELECT_BOX,         // inside or on a box
+  VSC_SELECT_BOX,         // inside or on a box, middles of edges too, wherever these end
   VSC_SELECT_PLANE,       // within a distance of a plane
   VSC_SELECT_SURFACE,     // the nodes of a surface that has a name of its own
 } vsc_select_kind;
@@ -63,6 +64,11 @@ vsc_status vsc_select_nodes(const vsc_mesh *mesh, const vsc_selector *selector,
 // Finds the boundary triangles that `selector` describes; none is an error.
 vsc_status vsc_select_surface(const vsc_mesh *mesh, const vsc_surface *boundary,
                               const vsc_selector *selector, vsc_surface *surface, vsc_error *error);
+
+// The triangles of a surface that another one of the same boundary does not have, perhaps none; the middles of
+// their edges where it has them. `rest` is filled and owned by the caller.
+vsc_status vsc_surface_without(const vsc_surface *surface, const vsc_surface *other, vsc_surface *rest,
+                               vsc_error *error);
 
 void vsc_node_set_free(vsc_node_set *set);        // frees the content
 void vsc_surface_free(vsc_surface *surface);      // frees the content

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// vsc_select_surface: which boundary triangles a selector describes.
+// vsc_select_surface: which boundary triangles a selector describes; surfaces less others.
 #include <stdlib.h>
 #include <string.h>
 
@@ -33,6 +33,16 @@ static int compare_corners(const void *a, const void *b)
   return 0;
 }
 
+// Marks the triangles of a surface that are among `count` others, which get sorted.
+static void mark_corners(const vsc_surface *surface, corners *others, size_t count, uint8_t *marked)
+{
+  qsort(others, count, sizeof *others, compare_corners);
+  for (size_t t = 0; t < surface->count; t++) {
+    const corners key = sorted_corners(surface->triangles + 3 * t);
+    marked[t] = bsearch(&key, others, count, sizeof key, compare_corners) != NULL;
+  }
+}
+
 // Marks the boundary triangles that the file lists with a value that the selector takes.
 static vsc_status mark_listed(const vsc_mesh *mesh, const vsc_surface *boundary,
                               const vsc_selector *selector, uint8_t *marked, vsc_error *error)
@@ -44,11 +54,7 @@ static vsc_status mark_listed(const vsc_mesh *mesh, const vsc_surface *boundary,
   for (size_t t = 0; t < mesh->triangle_count; t++)
     if (array->values[t] >= selector->low && array->values[t] <= selector->high)
       listed[count++] = sorted_corners(mesh->triangles + 3 * t);
-  qsort(listed, count, sizeof *listed, compare_corners);
-  for (size_t t = 0; t < boundary->count; t++) {
-    const corners key = sorted_corners(boundary->triangles + 3 * t);
-    marked[t] = bsearch(&key, listed, count, sizeof key, compare_corners) != NULL;
-  }
+  mark_corners(boundary, listed, count, marked);
   vsc_free(listed);
   return VSC_OK;
 }
@@ -96,6 +102,22 @@ static vsc_status mark_selected(const vsc_mesh *mesh, const vsc_surface *boundar
   return status;
 }
 
+// Copies the marked triangles of a surface.
+static vsc_status copy_marked(const vsc_surface *from, const uint8_t *marked, vsc_surface *to, vsc_error *error)
+{
+  size_t count = 0;
+  for (size_t t = 0; t < from->count; t++) count += marked[t];
+  if (!VSC_NEW(to->triangles, 3 * count) || (from->mid != NULL && !VSC_NEW(to->mid, 3 * count)))
+    return vsc_fail_memory(error, "a surface");
+  for (size_t t = 0; t < from->count; t++) {
+    if (!marked[t]) continue;
+    const size_t at = 3 * to->count++;
+    memcpy(to->triangles + at, from->triangles + 3 * t, 3 * sizeof *to->triangles);
+    if (from->mid != NULL) memcpy(to->mid + at, from->mid + 3 * t, 3 * sizeof *to->mid);
+  }
+  return VSC_OK;
+}
+
 vsc_status vsc_select_surface(const vsc_mesh *mesh, const vsc_surface *boundary,
                               const vsc_selector *selector, vsc_surface *surface, vsc_error *error)
 {
@@ -104,18 +126,28 @@ vsc_status vsc_select_surface(const vsc_mesh *mesh, const vsc_surface *boundary,
   uint8_t *marked;
   if (!VSC_NEW(marked, boundary->count)) return vsc_fail_memory(error, "a surface");
   vsc_status status = mark_selected(mesh, boundary, selector, marked, error);
-  size_t count = 0;
-  for (size_t t = 0; t < boundary->count; t++) count += marked[t];
-  if (status == VSC_OK && (!VSC_NEW(surface->triangles, 3 * count) ||
-                           (boundary->mid != NULL && !VSC_NEW(surface->mid, 3 * count))))
+  if (status == VSC_OK) status = copy_marked(boundary, marked, surface, error);
+  vsc_free(marked);
+  return status;
+}
+
+vsc_status vsc_surface_without(const vsc_surface *surface, const vsc_surface *other, vsc_surface *rest,
+                               vsc_error *error)
+{
+  corners *taken = NULL;
+  uint8_t *marked = NULL;
+  vsc_status status = VSC_OK;
+  *rest = (vsc_surface){0};
+  vsc_copy_name(rest->name, surface->name);
+  if (VSC_NEW(taken, other->count) && VSC_NEW(marked, surface->count)) {
+    for (size_t t = 0; t < other->count; t++) taken[t] = sorted_corners(other->triangles + 3 * t);
+    mark_corners(surface, taken, other->count, marked);
+    for (size_t t = 0; t < surface->count; t++) marked[t] = !marked[t];
+    status = copy_marked(surface, marked, rest, error);
+  } else {
     status = vsc_fail_memory(error, "a surface");
-  for (size_t t = 0; t < boundary->count && status == VSC_OK; t++) {
-    if (!marked[t]) continue;
-    const size_t to = 3 * surface->count++;
-    memcpy(surface->triangles + to, boundary->triangles + 3 * t, 3 * sizeof *surface->triangles);
-    if (boundary->mid != NULL)
-      memcpy(surface->mid + to, boundary->mid + 3 * t, 3 * sizeof *surface->mid);
   }
+  vsc_free(taken);
   vsc_free(marked);
   return status;
 }

@@ -448,7 +448,7 @@ static vsc_status build(const vsc_mesh *mesh, const vsc_mesh *shown, const vsc_a
   if (status == VSC_OK) status = vsc_terms_obstacles(mesh, definition, model, error);
   if (status == VSC_OK)
     status = vsc_terms_kept_volumes(mesh, definition, material_of, model, error);
-  if (status == VSC_OK) status = vsc_terms_loads(definition, model, error);
+  if (status == VSC_OK) status = vsc_terms_loads(mesh, definition, material_of, model, error);
   if (status == VSC_OK) status = vsc_terms_velocity(mesh, definition, model, error);
   if (status == VSC_OK) hash_model(model);
   return status;

@@ -157,8 +157,8 @@ typedef struct vsc_pair_def {
   double modulus;  // G, kPa
 } vsc_pair_def;
 
-// A part of each element's volume that is another material: moduli are mixed by volume,
-// E = (1 - sum phi) E_own + sum phi_j E_j (Voigt).
+// A part of each element's volume that is another material: moduli and densities are mixed by volume,
+// E = (1 - sum phi) E_own + sum phi_j E_j (Voigt). Where phi > 0 both laws are SPRINGS.
 typedef struct vsc_inclusion_def {
   char material[VSC_NAME];        // the other material's name
   char fraction_array[VSC_NAME];  // element array of phi in [0, 1]
@@ -347,8 +347,8 @@ typedef struct vsc_solve_def {
                      // default 1e-4
   double tolerance;  // of the residual, as a part of the forces at work; 0 (default): 1e-6, but IMPLICIT without a
                      // given step as accuracy, from 1e-6 to 1e-4
-  double incompressible;  // EQUILIBRIUM by Newton: largest |J - 1| of shared volumes, by multipliers; 0: as K
-                          // has it (default)
+  double incompressible;  // EQUILIBRIUM by Newton: largest |J - 1| of volumes that tets share and of other
+                          // elements, by multipliers; 0: as K has it (default)
 } vsc_solve_def;
 
 typedef struct vsc_definition {

@@ -6,60 +6,142 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/mem.h"
+
 enum { MOTIONS = 6 };
 // Eigenvalues of G below this part of the largest are 0: rounding leaves some 1e-15, and one node that is
 // held among a million gives 1e-6.
 #define NOTHING 1e-11
 
-// The centre of the nodes, and the largest distance from it: rotations are measured on that.
-static double centre_of(const vsc_model *model, double centre[3])
+// Nodes that elements or membranes join, directly or through others.
+typedef struct part {
+  uint32_t first;   // the lowest of its nodes
+  size_t nodes, elements;
+  double centre[3]; // of the nodes, mm
+  double size;      // the largest distance from it, mm: rotations are measured on that
+  double G[MOTIONS * MOTIONS];
+} part;
+
+typedef struct body {
+  const vsc_model *model;
+  size_t part_count;
+  part *parts;        // part_count, by their lowest nodes
+  uint32_t *part_of;  // node_count
+} body;
+
+static uint32_t root_of(uint32_t *parent, uint32_t node)
 {
-  double far = 0;
-  for (int i = 0; i < 3; i++) {
-    centre[i] = 0;
-    for (size_t n = 0; n < model->node_count; n++) centre[i] += model->rest[4 * n + (size_t)i];
-    centre[i] /= (double)model->node_count;
+  while (parent[node] != node) {
+    parent[node] = parent[parent[node]];
+    node = parent[node];
   }
-  for (size_t n = 0; n < model->node_count; n++) {
-    double square = 0;
-    for (int i = 0; i < 3; i++) square += pow(model->rest[4 * n + (size_t)i] - centre[i], 2);
-    far = fmax(far, square);
-  }
-  return sqrt(far);
+  return node;
 }
 
-// u_a of a node: three translations, three turns about the centre by one over `size`.
-static void motions_of(const double *place, const double centre[3], double size, double u[MOTIONS][3])
+// parent[n]: a lower node of the same part, or n itself where that is the lowest.
+static void join_nodes(const vsc_model *model, uint32_t *parent)
 {
+  for (size_t n = 0; n < model->node_count; n++) parent[n] = (uint32_t)n;
+  for (size_t p = 0; p < model->patch_count; p++) {
+    const vsc_patch *patch = &model->patches[p];
+    for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++) {
+      const uint16_t(*node)[VSC_WIDTH] = vsc_pack_nodes(model, patch, k);
+      for (int c = 1; c < vsc_family_corners(patch->family); c++)
+        for (int l = 0; l < VSC_WIDTH; l++) {
+          const uint32_t a = root_of(parent, vsc_node_of(model, patch, node[0][l]));
+          const uint32_t b = root_of(parent, vsc_node_of(model, patch, node[c][l]));
+          parent[a < b ? b : a] = a < b ? a : b;
+        }
+    }
+  }
+}
+
+static void count_elements(body *body)
+{
+  const vsc_model *model = body->model;
+  for (size_t p = 0; p < model->patch_count; p++) {
+    const vsc_patch *patch = &model->patches[p];
+    if (!vsc_patch_is_solid(patch)) continue;
+    for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++)
+      for (int l = 0; l < VSC_WIDTH; l++)
+        if (model->mesh_element[VSC_WIDTH * k + (size_t)l] != VSC_NO_ELEMENT)
+          body->parts[body->part_of[vsc_node_of(model, patch, vsc_pack_nodes(model, patch, k)[0][l])]].elements++;
+  }
+}
+
+static void measure_parts(body *body)
+{
+  const vsc_model *model = body->model;
+  for (size_t n = 0; n < model->node_count; n++) {
+    part *own = &body->parts[body->part_of[n]];
+    own->nodes++;
+    for (size_t i = 0; i < 3; i++) own->centre[i] += model->rest[4 * n + i];
+  }
+  for (size_t k = 0; k < body->part_count; k++)
+    for (int i = 0; i < 3; i++) body->parts[k].centre[i] /= (double)body->parts[k].nodes;
+  for (size_t n = 0; n < model->node_count; n++) {
+    part *own = &body->parts[body->part_of[n]];
+    double square = 0;
+    for (size_t i = 0; i < 3; i++) square += pow(model->rest[4 * n + i] - own->centre[i], 2);
+    own->size = fmax(own->size, sqrt(square));
+  }
+}
+
+// False when memory is short.
+static bool find_parts(body *body)
+{
+  const size_t nodes = body->model->node_count;
+  uint32_t *parent = NULL;
+  bool made = VSC_NEW(parent, nodes) && VSC_NEW(body->part_of, nodes);
+  if (made) {
+    join_nodes(body->model, parent);
+    for (uint32_t n = 0; n < nodes; n++)
+      body->part_of[n] = parent[n] == n ? (uint32_t)body->part_count++ : body->part_of[root_of(parent, n)];
+    made = VSC_NEW(body->parts, body->part_count);
+  }
+  for (uint32_t n = 0; made && n < nodes; n++)
+    if (parent[n] == n) body->parts[body->part_of[n]].first = n;
+  vsc_free(parent);
+  if (!made) return false;
+  measure_parts(body);
+  count_elements(body);
+  return true;
+}
+
+// u_a of a node: three translations, three turns about the centre of its part by one over its size.
+static void motions_of(const body *body, size_t node, double u[MOTIONS][3])
+{
+  const double *place = body->model->rest + 4 * node;
+  const part *own = &body->parts[body->part_of[node]];
   memset(u, 0, MOTIONS * sizeof u[0]);
   for (int a = 0; a < 3; a++) {
     const int next = (a + 1) % 3, last = (a + 2) % 3;
     u[a][a] = 1;
     // e_a x (X - c)
-    u[3 + a][next] = -(place[last] - centre[last]) / size;
-    u[3 + a][last] = (place[next] - centre[next]) / size;
+    u[3 + a][next] = -(place[last] - own->centre[last]) / own->size;
+    u[3 + a][last] = (place[next] - own->centre[next]) / own->size;
   }
 }
 
-static void add_supports(const vsc_model *model, const double centre[3], double size, double *G)
+static void add_supports(body *body)
 {
+  const vsc_model *model = body->model;
   for (size_t n = 0; n < model->node_count; n++) {
-    double u[MOTIONS][3];
-    motions_of(model->rest + 4 * n, centre, size, u);
+    double u[MOTIONS][3], *G = body->parts[body->part_of[n]].G;
+    motions_of(body, n, u);
     for (size_t i = 0; i < 3; i++)
       for (int a = 0; model->inverse_mass[4 * n + i] == 0 && a < MOTIONS; a++)
         for (int b = 0; b < MOTIONS; b++) G[MOTIONS * a + b] += u[a][i] * u[b][i];
   }
 }
 
-static void add_robin(const vsc_model *model, const vsc_robin *robin, const double centre[3], double size,
-                      double *G)
+static void add_robin(body *body, const vsc_robin *robin)
 {
   for (size_t row = 0; robin->stiffness > 0 && row < robin->node_count; row++)
     for (uint32_t k = robin->start[row]; k < robin->start[row + 1]; k++) {
-      double u[MOTIONS][3], v[MOTIONS][3];
-      motions_of(model->rest + 4 * robin->nodes[row], centre, size, u);
-      motions_of(model->rest + 4 * robin->columns[k], centre, size, v);
+      double u[MOTIONS][3], v[MOTIONS][3], *G = body->parts[body->part_of[robin->nodes[row]]].G;
+      motions_of(body, robin->nodes[row], u);
+      motions_of(body, robin->columns[k], v);
       const double *S = robin->blocks + 12 * k;
       for (int a = 0; a < MOTIONS; a++)
         for (int b = 0; b < MOTIONS; b++)
@@ -95,23 +177,46 @@ static void say(const double *columns, int count, char *text, size_t size)
   if (told != count) snprintf(text, size, "move in %d ways as one rigid thing", count);
 }
 
-int vsc_free_motions(const vsc_model *model, char *text, size_t size)
+// How many motions of a part nothing resists; told in `text` where there are any.
+static int free_motions_of(part *own, gsl_eigen_symmv_workspace *work, char *text, size_t size)
 {
-  double centre[3], G[MOTIONS * MOTIONS] = {0}, values[MOTIONS], columns[MOTIONS * MOTIONS];
-  const double far = centre_of(model, centre);
-  text[0] = '\0';
-  add_supports(model, centre, far, G);
-  for (size_t k = 0; k < model->robin_count; k++) add_robin(model, &model->robins[k], centre, far, G);
-  gsl_eigen_symmv_workspace *work = gsl_eigen_symmv_alloc(MOTIONS);
-  if (work == NULL) return 0;
-  gsl_matrix_view matrix = gsl_matrix_view_array(G, MOTIONS, MOTIONS);
+  double values[MOTIONS], columns[MOTIONS * MOTIONS];
+  gsl_matrix_view matrix = gsl_matrix_view_array(own->G, MOTIONS, MOTIONS);
   gsl_matrix_view vectors = gsl_matrix_view_array(columns, MOTIONS, MOTIONS);
   gsl_vector_view value = gsl_vector_view_array(values, MOTIONS);
   gsl_eigen_symmv(&matrix.matrix, &value.vector, &vectors.matrix, work);
-  gsl_eigen_symmv_free(work);
   gsl_eigen_symmv_sort(&value.vector, &vectors.matrix, GSL_EIGEN_SORT_VAL_ASC);
   int count = 0;
   while (count < MOTIONS && values[count] <= NOTHING * values[MOTIONS - 1]) count++;
   if (count > 0) say(columns, count, text, size);
+  return count;
+}
+
+static void say_where(const body *body, const part *own, char *text, size_t size)
+{
+  const double *place = body->model->rest + 4 * (size_t)own->first;
+  const size_t length = strlen(text), count = own->elements > 0 ? own->elements : own->nodes;
+  snprintf(text + length, size - length,
+           " in a part of it, %zu %s with node %u at (%.4g, %.4g, %.4g) mm, that is joined to nothing else", count,
+           own->elements > 0 ? "elements" : "nodes", body->model->mesh_node[own->first], place[0], place[1], place[2]);
+}
+
+int vsc_free_motions(const vsc_model *model, char *text, size_t size)
+{
+  body body = {.model = model};
+  int count = 0;
+  text[0] = '\0';
+  gsl_eigen_symmv_workspace *work = gsl_eigen_symmv_alloc(MOTIONS);
+  if (work != NULL && find_parts(&body)) {
+    add_supports(&body);
+    for (size_t k = 0; k < model->robin_count; k++) add_robin(&body, &model->robins[k]);
+    for (size_t k = 0; k < body.part_count && count == 0; k++) {
+      count = free_motions_of(&body.parts[k], work, text, size);
+      if (count > 0 && body.part_count > 1) say_where(&body, &body.parts[k], text, size);
+    }
+  }
+  gsl_eigen_symmv_free(work);
+  vsc_free(body.parts);
+  vsc_free(body.part_of);
   return count;
 }

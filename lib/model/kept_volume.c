@@ -152,6 +152,9 @@ vsc_status vsc_terms_kept_volumes(const vsc_mesh *mesh, const vsc_definition *de
   vsc_topology topology;
   model->kept.kind = definition->kept_volume;
   if (definition->kept_volume == VSC_KEEP_NONE) return VSC_OK;
+  if (mesh->element_count == 0)
+    return vsc_fail(error, VSC_INPUT,
+                    "keep_volume: volumes of elements are kept, and the mesh has none, but triangles: leave it out");
   vsc_status status = vsc_topology_make(mesh, &topology, error);
   if (status != VSC_OK) return status;
   uint32_t *number = vsc_model_node_numbers(model);

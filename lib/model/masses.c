@@ -9,6 +9,7 @@
 #include "base/mem.h"
 #include "base/vec3.h"
 #include "mesh/topology.h"
+#include "model/mixture.h"
 #include "model/terms.h"
 
 // ---- the part of a tet that is nearest to a point
@@ -329,11 +330,10 @@ vsc_status vsc_terms_masses(const vsc_mesh *mesh, const vsc_definition *definiti
   }
   for (size_t n = 0; n < nodes; n++)
     memcpy(model->rest + 4 * n, mesh->nodes + 3 * (size_t)model->mesh_node[n], 3 * sizeof(double));
-  for (size_t e = 0; e < mesh->element_count; e++)
-    density[e] = definition->materials[material_of[e]].density;
-  if (definition->masses == VSC_MASS_VORONOI)
+  status = vsc_mixture_densities(mesh, definition, material_of, density, error);
+  if (status == VSC_OK && definition->masses == VSC_MASS_VORONOI)
     status = vsc_voronoi_masses(mesh, density, masses, error);
-  else
+  else if (status == VSC_OK)
     lumped_masses(mesh, model->rules, density, masses);
   add_membranes(model, masses);
   if (status == VSC_OK) status = finish_masses(mesh, definition, masses, model, error);

@@ -23,11 +23,6 @@ static vsc_status find_inclusions(const vsc_mesh *mesh, const vsc_definition *de
   if (own->inclusion_count > MOST)
     return vsc_fail(error, VSC_INPUT, "materials[%zu].inclusions: %zu of them; %d are the most", m,
                     own->inclusion_count, MOST);
-  if (own->inclusion_count > 0 && own->law != VSC_LAW_SPRINGS)
-    return vsc_fail(error, VSC_INPUT,
-                    "materials[%zu].inclusions: only springs are mixed by volume; use law: springs, or "
-                    "give the inclusions regions of their own",
-                    m);
   for (size_t k = 0; k < own->inclusion_count; k++) {
     char key[VSC_NAME];
     size_t other = 0;
@@ -55,6 +50,18 @@ static vsc_status find_inclusions(const vsc_mesh *mesh, const vsc_definition *de
   return VSC_OK;
 }
 
+// Refuses inclusions in element `e`, `sum` of it, of a material of another law than springs.
+static vsc_status need_springs(const vsc_mesh *mesh, const vsc_definition *definition, size_t m, size_t e, double sum,
+                               vsc_error *error)
+{
+  const vsc_material_def *own = &definition->materials[m];
+  if (own->law == VSC_LAW_SPRINGS) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT,
+                  "materials[%zu].law: inclusions and vessels (%s) make up %.3g of element %u of material %s, and only "
+                  "springs are mixed by volume: use law: springs, leave them out, or give them regions of their own",
+                  m, own->inclusions[0].material, sum, mesh->element_source[e], own->name);
+}
+
 vsc_status vsc_mixture_find(const vsc_mesh *mesh, const vsc_definition *definition,
                             const uint32_t *material_of, uint8_t *mixed, vsc_error *error)
 {
@@ -79,6 +86,31 @@ vsc_status vsc_mixture_find(const vsc_mesh *mesh, const vsc_definition *definiti
                         "lie in [0, 1], and so must their sum",
                         m, mesh->element_source[e], sum);
       mixed[e] = sum > ROUNDING;
+      const vsc_status mixable = mixed[e] ? need_springs(mesh, definition, m, e, sum, error) : VSC_OK;
+      if (mixable != VSC_OK) return mixable;
+    }
+  }
+  return VSC_OK;
+}
+
+vsc_status vsc_mixture_densities(const vsc_mesh *mesh, const vsc_definition *definition, const uint32_t *material_of,
+                                 double *density, vsc_error *error)
+{
+  for (size_t e = 0; e < mesh->element_count; e++) density[e] = definition->materials[material_of[e]].density;
+  for (size_t m = 0; m < definition->material_count; m++) {
+    inclusion found[MOST];
+    const vsc_material_def *own = &definition->materials[m];
+    const vsc_status status = find_inclusions(mesh, definition, m, found, error);
+    if (status != VSC_OK) return status;
+    for (size_t k = 0; k < own->inclusion_count; k++) {
+      const double more = definition->materials[found[k].other].density - own->density;
+      if (more != 0 && definition->masses == VSC_MASS_CONSISTENT)
+        return vsc_fail(error, VSC_INPUT,
+                        "materials[%zu].inclusions[%zu]: '%s' has the density %g mg/mm3, its tissue %g, and masses: "
+                        "consistent mixes none: take masses: lumped, or one density",
+                        m, k, own->inclusions[k].material, own->density + more, own->density);
+      for (size_t e = 0; e < mesh->element_count; e++)
+        if (material_of[e] == m) density[e] += found[k].fractions[e] * more;
     }
   }
   return VSC_OK;

@@ -187,8 +187,11 @@ vsc_status vsc_terms_smoothing(vsc_model *model, vsc_error *error)
   const size_t count = list_incidences(model, NULL);
   incidence *list;
   uint32_t *first = NULL;
-  model->terms.smoothed = count > 0;
-  if (count == 0) return VSC_OK;
+  if (!model->terms.smoothed) return VSC_OK;
+  if (count == 0)
+    return vsc_fail(error, VSC_INPUT,
+                    "tets: smoothed smooths linear tetrahedra, and the mesh has none: leave it out, or use a mesh of "
+                    "them without mesh.order: 2");
   bool good = VSC_NEW(list, count) && VSC_NEW(first, count + VSC_WIDTH * model->material_count);
   if (good) {
     list_incidences(model, list);

@@ -5,6 +5,7 @@
 #include "base/mem.h"
 #include "base/vec3.h"
 #include "model/masses.h"
+#include "model/mixture.h"
 #include "model/robin.h"
 #include "model/terms.h"
 
@@ -221,12 +222,11 @@ static vsc_status add_robin(const vsc_robin_def *def, size_t r, const uint32_t *
 
 // int rho N_i g dV of quadratic tets, which is below 0 at corners: what their lumped masses, which are
 // not, would weigh is another load.
-static void weigh_quadratic(const vsc_model *model, double *weight)
+static void weigh_quadratic(const vsc_model *model, const double *density, double *weight)
 {
   for (size_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];
     if (patch->family != VSC_TETS10) continue;
-    const double density = model->materials[patch->material].density;
     for (size_t slot = 0; slot < VSC_WIDTH * (size_t)patch->pack_count; slot++) {
       const size_t k = patch->first_pack + slot / VSC_WIDTH, l = slot % VSC_WIDTH;
       double volume = 0;
@@ -237,7 +237,7 @@ static void weigh_quadratic(const vsc_model *model, double *weight)
         double part = 0;
         for (int j = 0; j < vsc_family_corners(patch->family); j++) part += vsc_quadratic_mass(i, j);
         for (size_t a = 0; a < 3; a++)
-          weight[4 * node + a] += density * volume * part * model->gravity[a];
+          weight[4 * node + a] += density[model->mesh_element[VSC_WIDTH * k + l]] * volume * part * model->gravity[a];
       }
     }
   }
@@ -248,7 +248,19 @@ static bool is_quadratic(const vsc_model *model)
   return model->patch_count > 0 && model->patches[0].family == VSC_TETS10;
 }
 
-static vsc_status add_weight(const vsc_definition *definition, vsc_model *model, vsc_error *error)
+static vsc_status add_quadratic(const vsc_mesh *mesh, const vsc_definition *definition, const uint32_t *material_of,
+                                vsc_model *model, vsc_error *error)
+{
+  double *density;
+  if (!VSC_NEW(density, mesh->element_count)) return vsc_fail_memory(error, "the weight");
+  const vsc_status status = vsc_mixture_densities(mesh, definition, material_of, density, error);
+  if (status == VSC_OK) weigh_quadratic(model, density, model->weight);
+  vsc_free(density);
+  return status;
+}
+
+static vsc_status add_weight(const vsc_mesh *mesh, const vsc_definition *definition, const uint32_t *material_of,
+                             vsc_model *model, vsc_error *error)
 {
   const double *gravity = definition->gravity;
   memcpy(model->gravity, gravity, sizeof model->gravity);
@@ -257,18 +269,16 @@ static vsc_status add_weight(const vsc_definition *definition, vsc_model *model,
   if (!VSC_NEW(model->weight, 4 * model->node_count)) return vsc_fail_memory(error, "the weight");
   const bool lumped = definition->solve.kind != VSC_SOLVE_EQUILIBRIUM &&
                       definition->masses != VSC_MASS_CONSISTENT;
-  if (is_quadratic(model) && !lumped) {
-    weigh_quadratic(model, model->weight);
-    return VSC_OK;
-  }
+  if (is_quadratic(model) && !lumped) return add_quadratic(mesh, definition, material_of, model, error);
   for (size_t n = 0; n < model->node_count; n++)
     for (int i = 0; i < 3; i++) model->weight[4 * n + i] = model->mass[n] * gravity[i];
   return VSC_OK;
 }
 
-vsc_status vsc_terms_loads(const vsc_definition *definition, vsc_model *model, vsc_error *error)
+vsc_status vsc_terms_loads(const vsc_mesh *mesh, const vsc_definition *definition, const uint32_t *material_of,
+                           vsc_model *model, vsc_error *error)
 {
-  vsc_status status = add_weight(definition, model, error);
+  vsc_status status = add_weight(mesh, definition, material_of, model, error);
   model->pressure_count = definition->pressure_count;
   model->robin_count = definition->robin_count;
   if (!VSC_NEW(model->pressures, model->pressure_count) ||

@@ -80,8 +80,24 @@ vsc_status vsc_terms_activation(const vsc_mesh *mesh, const vsc_definition *defi
   return VSC_OK;
 }
 
+// What solver.incompressible would pass over.
+static vsc_status check_multipliers(const vsc_model *model, vsc_error *error)
+{
+  for (size_t p = 0; p < model->patch_count && model->solve.incompressible > 0; p++) {
+    const vsc_patch *patch = &model->patches[p];
+    if (patch->family == VSC_TETS && !vsc_patch_shares_volume(model, patch))
+      return vsc_fail(error, VSC_INPUT,
+                      "solver.incompressible: linear tetrahedra that each keep a volume of their own (%s) would lock "
+                      "and are not kept: use volume: nodal, or mesh.order: 2",
+                      model->materials[patch->material].name);
+  }
+  return VSC_OK;
+}
+
 vsc_status vsc_terms_volume_groups(vsc_model *model, vsc_error *error)
 {
+  const vsc_status status = check_multipliers(model, error);
+  if (status != VSC_OK) return status;
   if (!model->terms.nodal_volume) return VSC_OK;
   if (!VSC_NEW(model->group_volume, model->node_count) ||
       !VSC_NEW(model->group_modulus, model->node_count))

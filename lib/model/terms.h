@@ -23,9 +23,11 @@ vsc_status vsc_terms_masses(const vsc_mesh *mesh, const vsc_definition *definiti
                             const uint32_t *material_of, vsc_model *model, vsc_error *error);
 
 // V_n = sum_e V_e / 4 and K_n = sum_e K_e V_e / 4 / V_n over the tets e of law SPRINGS round node n.
+// VSC_INPUT for solver.incompressible and tets that share no volume, which have no multiplier.
 vsc_status vsc_terms_volume_groups(vsc_model *model, vsc_error *error);
 
-// The edge frames of smoothed tets (smoothing.c), after activation.
+// The edge frames of smoothed tets (smoothing.c), after activation. VSC_INPUT where they are wanted and no element is
+// a linear tet.
 vsc_status vsc_terms_smoothing(vsc_model *model, vsc_error *error);
 
 // The named surfaces and node sets.
@@ -42,7 +44,7 @@ vsc_status vsc_terms_still(const vsc_mesh *mesh, const vsc_definition *definitio
 vsc_status vsc_terms_supports(const vsc_definition *definition, vsc_model *model, vsc_error *error);
 
 // Volumes to be kept (kept_volume.c), after supports: those that cannot change are left out. VSC_INPUT
-// for more of them than ways to move.
+// for more of them than ways to move, and for a mesh without elements.
 vsc_status vsc_terms_kept_volumes(const vsc_mesh *mesh, const vsc_definition *definition,
                                   const uint32_t *material_of, vsc_model *model, vsc_error *error);
 
@@ -51,7 +53,8 @@ vsc_status vsc_terms_obstacles(const vsc_mesh *mesh, const vsc_definition *defin
                                vsc_model *model, vsc_error *error);
 
 // Pressures, weights, springs and dashpots on surfaces.
-vsc_status vsc_terms_loads(const vsc_definition *definition, vsc_model *model, vsc_error *error);
+vsc_status vsc_terms_loads(const vsc_mesh *mesh, const vsc_definition *definition, const uint32_t *material_of,
+                           vsc_model *model, vsc_error *error);
 
 // The initial velocity (initial_velocity.c), after supports, which take it from the directions that they hold.
 // VSC_INPUT for a node array that is missing, has not three numbers a node, or a number that is not finite.

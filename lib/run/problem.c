@@ -25,10 +25,10 @@ double vsc_cpu_seconds(void)
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-// The named surfaces, which fibres and curved edges hang on, and the whole boundary.
+// The named surfaces, which fibres and curved edges hang on, and behind them the whole boundary.
 typedef struct named_surfaces {
   size_t count;
-  vsc_surface *items, boundary;
+  vsc_surface *items;
 } named_surfaces;
 
 static vsc_status select_surfaces(const vsc_problem *problem, named_surfaces *surfaces,
@@ -36,32 +36,28 @@ static vsc_status select_surfaces(const vsc_problem *problem, named_surfaces *su
 {
   const vsc_definition *definition = &problem->scene->definition;
   *surfaces = (named_surfaces){0};
-  if (!VSC_NEW(surfaces->items, definition->surface_count))
-    return vsc_fail_memory(error, "surfaces");
-  vsc_status status = vsc_boundary(problem->mesh, &surfaces->boundary, error);
-  while (status == VSC_OK && surfaces->count < definition->surface_count) {
-    status = vsc_select_surface(problem->mesh, &surfaces->boundary,
-                                &definition->surfaces[surfaces->count],
-                                &surfaces->items[surfaces->count], error);
-    surfaces->count++;
-  }
+  const size_t named = definition->surface_count;
+  if (!VSC_NEW(surfaces->items, named + 1)) return vsc_fail_memory(error, "surfaces");
+  surfaces->count = named + 1;
+  vsc_surface *boundary = &surfaces->items[named];
+  vsc_status status = vsc_boundary(problem->mesh, boundary, error);
+  for (size_t s = 0; s < named && status == VSC_OK; s++)
+    status = vsc_select_surface(problem->mesh, boundary, &definition->surfaces[s], &surfaces->items[s], error);
   return status;
 }
 
 static void free_surfaces(named_surfaces *surfaces)
 {
   for (size_t s = 0; s < surfaces->count; s++) vsc_surface_free(&surfaces->items[s]);
-  vsc_surface_free(&surfaces->boundary);
   vsc_free(surfaces->items);
 }
 
 static vsc_status bend_surface(vsc_problem *problem, const named_surfaces *surfaces,
                                const vsc_curved_def *curved, vsc_error *error)
 {
-  const vsc_surface *surface = &surfaces->boundary;
-  for (size_t s = 0; s < surfaces->count; s++)
-    if (strcmp(surfaces->items[s].name, curved->surface) == 0) surface = &surfaces->items[s];
-  return vsc_mesh_bend(problem->mesh, &surfaces->boundary, surface, curved, error);
+  const vsc_surface *boundary = &surfaces->items[surfaces->count - 1], *surface = surfaces->items;
+  while (surface < boundary && strcmp(surface->name, curved->surface) != 0) surface++;
+  return vsc_mesh_bend(problem->mesh, boundary, surface, curved, error);
 }
 
 // The mesh as the scene wants it: its order, and edges bent onto ellipsoids.
@@ -97,9 +93,7 @@ static vsc_status include_vessels(vsc_definition *definition, vsc_error *error)
 {
   for (size_t m = 0; m < definition->material_count; m++) {
     vsc_material_def *tissue = &definition->materials[m];
-    if (tissue->law != VSC_LAW_SPRINGS || tissue->inclusion_count > 0 ||
-        !vsc_takes_elements(definition, m))
-      continue;
+    if (tissue->inclusion_count > 0 || !vsc_takes_elements(definition, m)) continue;
     vsc_free(tissue->inclusions);
     if (!VSC_NEW(tissue->inclusions, definition->vessel_count))
       return vsc_fail_memory(error, "the vessels of a material");

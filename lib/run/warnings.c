@@ -147,6 +147,11 @@ static void warn_fibers(writer *w, const vsc_problem *problem)
          "wrong scale or "
          "angle convention",
          f->coherence[1]);
+  if (f->meeting > 0)
+    warn(w,
+         "fibers: endo and epi meet at %zu nodes, where the depth jumps from 0 to 1 and fibres turn at once: where the "
+         "base lies between them, let epi name the outside alone",
+         f->meeting);
   if (f->constant)
     warn(w, "fibers: the array holds one and the same direction everywhere: perhaps a dummy");
   if (!def->sense_kept && f->opposed > f->elements / 50)
@@ -227,7 +232,7 @@ static void warn_setting(writer *w, const vsc_problem *problem)
   if (model->held_count == 0 && model->obstacle_count == 0 && model->robin_count == 0 && driven &&
       model->solve.kind != VSC_SOLVE_EQUILIBRIUM)
     warn(w, "supports: nothing is held, so the load will carry the body away");
-  char ways[128];
+  char ways[VSC_FREE_TEXT];
   const bool rests = model->solve.kind == VSC_SOLVE_EQUILIBRIUM;
   if ((rests || problem->scene->prestress.loaded) && vsc_free_motions(model, ways, sizeof ways) > 0)
     warn(w, "%s: the body is free to %s, so forces that push it there never balance%s: hold it by supports or robin",

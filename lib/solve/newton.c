@@ -200,7 +200,7 @@ static vsc_status fail(const vsc_newton *newton, vsc_error *error, double time, 
   for (size_t i = 0; i < 4 * model->node_count; i++) out[i] = model->inverse_mass[i] != 0 ? newton->r[i] : 0;
   const size_t worst = vsc_largest_node(model, out);
   for (size_t i = 4 * worst; i < 4 * worst + 3; i++) size += out[i] * out[i];
-  char node[VSC_NODE_TEXT], ways[100], loose[240] = "";
+  char node[VSC_NODE_TEXT], ways[VSC_FREE_TEXT], loose[VSC_FREE_TEXT + 140] = "";
   if (vsc_free_motions(model, ways, sizeof ways) > 0)
     snprintf(loose, sizeof loose,
              "; nothing%s keeps the body from moving as a whole, it is free to %s: hold it by supports or robin",
