@@ -10,8 +10,8 @@
 #include "model/curve_driver.h"
 
 enum { INTERVALS_OF_PERIOD = 8192, DRIVEN_INTERVALS_OF_PERIOD = 65536, MOST_INTERVALS = 1 << 20 };
-enum { INTERVALS_OF_SCALE = 2048 };
-#define SPACING 0.015625  // ms; of a curve without period, halved for what changes within less than 32 ms
+enum { INTERVALS_OF_SCALE = 4096 };
+#define SPACING 0.015625  // ms; of a curve without period, halved for what changes within less than 64 ms
 
 // base^exponent; infinity, without overflow, where that is e^709.78 or more.
 static double power_of(double base, double exponent)
@@ -119,9 +119,9 @@ static double find_range(const vsc_curve_def *d, const vsc_curve *curve)
 static double scale_of(const vsc_curve_def *d)
 {
   if (d->kind == VSC_CURVE_RAMP || d->kind == VSC_CURVE_HALF_SINE) return d->duration;
-  if (d->kind == VSC_CURVE_DOUBLE_HILL || d->kind == VSC_CURVE_TANH_PAIR) return fmin(d->rise, d->fall);
-  if (d->kind == VSC_CURVE_TABLE && d->point_count > 0) return (d->times[d->point_count - 1] - d->times[0]) / 4;
-  return 8 * d->width;
+  if (d->kind == VSC_CURVE_DOUBLE_HILL || d->kind == VSC_CURVE_TANH_PAIR) return 2 * fmin(d->rise, d->fall);
+  if (d->kind == VSC_CURVE_TABLE && d->point_count > 0) return (d->times[d->point_count - 1] - d->times[0]) / 2;
+  return 16 * d->width;
 }
 
 // When a curve without period has come to rest, ms; tanh is 1 to the last bit from 20 on.

@@ -19,7 +19,7 @@ typedef struct vsc_curve {
   uint64_t hash;   // of the definition, which does not know when the run ends, unless the spacing depends on it
 } vsc_curve;
 
-// Tabulates `definition` over its period, or over [0, end_time] when it has none; then in steps of 1/64 ms, or of 1/2048
+// Tabulates `definition` over its period, or over [0, end_time] when it has none; then in steps of 1/64 ms, or of 1/4096
 // of the time in which it changes if that is less: only for more than 2^20 of them in longer ones.
 // Fails with VSC_INPUT for a table that is not rising in time, VSC_NUMERICAL for a driver's equation
 // that cannot be followed (model/curve_driver.h), and for lack of memory.
