@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#define MOST_CHANGE 0.125  // of the curve's range
+#define MOST_CHANGE (1.0 / 6)  // of the curve's range
 #define PARTS_OF_PERIOD 16
 #define DELAYS 64  // that stand for those of all elements
 

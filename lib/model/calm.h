@@ -6,7 +6,7 @@
 #include "model/model.h"
 
 // The longest time (ms), `most` at most, from `time` (ms) on in which
-//   |c(t) - c(time)| <= 1/8 of the curve's range
+//   |c(t) - c(time)| <= 1/6 of the curve's range
 // for the curve c of every active material (at the delays of its elements: 64 between the least and the largest),
 // pressure, moving support and obstacle, and not longer than a 16th of any of their periods. Where a curve changes by
 // more within two places of its table, these two places: a jump is passed.
