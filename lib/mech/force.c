@@ -241,7 +241,7 @@ static size_t piece_end(const node_pass *pass, size_t piece)
   return end < pass->model->node_count ? end : pass->model->node_count;
 }
 
-static void sum_shared(void *context, size_t piece, int thread)
+VSC_CLONED static void sum_shared(void *context, size_t piece, int thread)
 {
   (void)thread;
   const node_pass *s = context;
@@ -255,7 +255,7 @@ void vsc_sum_shared(const vsc_model *model, const double *partial, double *force
   for_nodes(&pass, sum_shared);
 }
 
-static void sum_all(void *context, size_t piece, int thread)
+VSC_CLONED static void sum_all(void *context, size_t piece, int thread)
 {
   (void)thread;
   const node_pass *s = context;

@@ -128,7 +128,7 @@ static void stir(search *s)
   s->size = probe_size(s);
 }
 
-static void step_aside(void *context, size_t piece, int thread)
+VSC_CLONED static void step_aside(void *context, size_t piece, int thread)
 {
   (void)thread;
   const search *s = context;
@@ -142,7 +142,7 @@ static void step_aside(void *context, size_t piece, int thread)
 
 // A d by the difference of forces; of d, A d, x, A x the products that are needed. d is what the positions differ
 // by, so that it is what the forces belong to, to the last bit.
-static void take_image(void *context, size_t piece, int thread)
+VSC_CLONED static void take_image(void *context, size_t piece, int thread)
 {
   (void)thread;
   search *s = context;
@@ -164,7 +164,7 @@ static void take_image(void *context, size_t piece, int thread)
 
 // The next x and its image; d becomes what is left of A x, the residual, and the part of the last way that makes it
 // conjugate to that.
-static void turn(void *context, size_t piece, int thread)
+VSC_CLONED static void turn(void *context, size_t piece, int thread)
 {
   (void)thread;
   search *s = context;
@@ -238,7 +238,7 @@ static double step_of(const search *s)
 }
 
 // C x by a difference of forces, and its products.
-static void take_damping(void *context, size_t piece, int thread)
+VSC_CLONED static void take_damping(void *context, size_t piece, int thread)
 {
   (void)thread;
   search *s = context;
@@ -255,7 +255,7 @@ static void take_damping(void *context, size_t piece, int thread)
 }
 
 // A x and the residual in d as they are with the new rate.
-static void shift_rate(void *context, size_t piece, int thread)
+VSC_CLONED static void shift_rate(void *context, size_t piece, int thread)
 {
   (void)thread;
   search *s = context;
@@ -289,7 +289,7 @@ static void follow_step(search *s, int iteration)
 }
 
 // x <- A x, of length 1: one iteration that costs nothing.
-static void keep_image(void *context, size_t piece, int thread)
+VSC_CLONED static void keep_image(void *context, size_t piece, int thread)
 {
   (void)thread;
   const search *s = context;
