@@ -127,7 +127,7 @@ static void stresses_are_judged(void **state)
   must("$V bench stability --only crush-springs-tets-equilibrium -t 1 -o judged");
   load_text("judged/stability.csv", table, sizeof table);
   assert_non_null(strstr(table, "\ncrush,springs,tets,equilibrium,stops,3,"));
-  assert_non_null(strstr(table, "moves so far that elements turn inside out, element "));
+  assert_non_null(strstr(table, "turn inside out"));
   assert_int_equal(shell("$V bench stability --only nonsense -o judged"), 2);
   assert_non_null(strstr(complained, "no case holds 'nonsense'; --list names them"));
 }
