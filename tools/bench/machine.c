@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/bench/machine.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,30 +13,49 @@
 enum { TRIES = 5, LONG = 20000000, ROUNDS = 4000000, CHAINS = 12 };
 
 #ifdef __x86_64__
-#define FOR_WIDE_VECTORS __attribute__((target_clones("avx2", "default"), noinline))
+#define FOR(...) __attribute__((target_clones(__VA_ARGS__, "default"), noinline))
 #else
-#define FOR_WIDE_VECTORS __attribute__((noinline))
+#define FOR(...) __attribute__((noinline))
 #endif
 
 typedef double four __attribute__((vector_size(32)));
+typedef double eight __attribute__((vector_size(64)));
 
-FOR_WIDE_VECTORS static void triad(double *a, const double *b, const double *c)
+FOR("avx2") static void triad(double *a, const double *b, const double *c)
 {
   for (size_t i = 0; i < LONG; i++) a[i] = b[i] + 3 * c[i];
 }
 
 // Twelve chains of a multiplication and an addition each, so that none waits for the one before.
-FOR_WIDE_VECTORS static double multiply_and_add(double factor)
+#define MULTIPLY_AND_ADD(vector)                                                     \
+  vector chain[CHAINS];                                                              \
+  const size_t lanes = sizeof chain[0] / sizeof(double);                             \
+  for (size_t k = 0; k < CHAINS; k++)                                                \
+    for (size_t l = 0; l < lanes; l++) chain[k][l] = (double)(k + l);                \
+  for (long round = 0; round < ROUNDS; round++)                                      \
+    _Pragma("GCC unroll 12") for (int k = 0; k < CHAINS; k++) chain[k] = chain[k] * factor + 1.0; \
+  double sum = 0;                                                                    \
+  for (int k = 0; k < CHAINS; k++)                                                   \
+    for (size_t l = 0; l < lanes; l++) sum += chain[k][l];                           \
+  return sum
+
+FOR("avx2") static double of_fours(double factor)
 {
-  four chain[CHAINS];
-  for (int k = 0; k < CHAINS; k++)
-    for (int l = 0; l < 4; l++) chain[k][l] = k + l;
-  for (long round = 0; round < ROUNDS; round++)
-#pragma GCC unroll 12
-    for (int k = 0; k < CHAINS; k++) chain[k] = chain[k] * factor + 1.0;
-  double sum = 0;
-  for (int k = 0; k < CHAINS; k++) sum += chain[k][0] + chain[k][1] + chain[k][2] + chain[k][3];
-  return sum;
+  MULTIPLY_AND_ADD(four);
+}
+
+FOR("avx512f") static double of_eights(double factor)
+{
+  MULTIPLY_AND_ADD(eight);
+}
+
+// Multiplications and additions a second, of vectors of `lanes`.
+static double arithmetic_of(double (*chains)(double), int lanes)
+{
+  static volatile double kept = 0.5;
+  const double start = vsc_cpu_seconds();
+  kept = chains(kept > 1e300 ? 0.5 : 0.4999);
+  return 2.0 * lanes * CHAINS * ROUNDS / (vsc_cpu_seconds() - start);
 }
 
 vsc_machine vsc_machine_measure(void)
@@ -43,16 +63,12 @@ vsc_machine vsc_machine_measure(void)
   vsc_machine machine = {0};
   double *memory;
   if (!VSC_NEW(memory, 3 * (size_t)LONG)) return machine;
-  volatile double kept = 0.5;
   for (int k = 0; k < TRIES; k++) {
-    double start = vsc_cpu_seconds();
+    const double start = vsc_cpu_seconds();
     triad(memory, memory + LONG, memory + 2 * (size_t)LONG);
     const double bandwidth = 24.0 * LONG / (vsc_cpu_seconds() - start);
     if (bandwidth > machine.bandwidth) machine.bandwidth = bandwidth;
-    start = vsc_cpu_seconds();
-    kept = multiply_and_add(kept > 1e300 ? 0.5 : 0.4999);
-    const double arithmetic = 8.0 * CHAINS * ROUNDS / (vsc_cpu_seconds() - start);
-    if (arithmetic > machine.arithmetic) machine.arithmetic = arithmetic;
+    machine.arithmetic = fmax(machine.arithmetic, fmax(arithmetic_of(of_fours, 4), arithmetic_of(of_eights, 8)));
   }
   vsc_free(memory);
   return machine;
