@@ -274,9 +274,11 @@ int vsc_bench_error(int argc, char **argv)
     fprintf(stderr, "viscera bench error: '%s' means nothing here\n", argv[optind]);
     return 2;
   }
-  char file[PATH_MAX];
-  snprintf(file, sizeof file, "%.4000s/error.csv", wish.output);
+  char file[PATH_MAX], whole[PATH_MAX];
   mkdir(wish.output, 0777);
+  // names in a scene's settings count from the scene's folder
+  if (realpath(wish.output, whole) != NULL) wish.output = whole;
+  snprintf(file, sizeof file, "%.4000s/error.csv", wish.output);
   wish.csv = fopen(file, "w");
   if (wish.csv == NULL) {
     fprintf(stderr, "viscera bench error: %s: cannot be written\n", file);
