@@ -19,8 +19,8 @@ typedef double vsc_wide __attribute__((vector_size(VSC_LANES * sizeof(double))))
 typedef int64_t vsc_wide_mask __attribute__((vector_size(VSC_LANES * sizeof(int64_t))));
 
 // A function of loops over vectors, compiled for AVX2 too and picked when the program starts. All that it calls
-// with vectors must be inlined.
-#if defined __x86_64__ && defined __GNUC__ && !defined __clang__
+// with vectors must be inlined. (The thread sanitizer is not there yet when it is picked.)
+#if defined __x86_64__ && defined __GNUC__ && !defined __clang__ && !defined __SANITIZE_THREAD__
 #define VSC_CLONED __attribute__((target_clones("avx2", "default")))
 #else
 #define VSC_CLONED
