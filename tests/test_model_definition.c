@@ -196,102 +196,103 @@ SPOIL(end_time, d->end_time = 0)
 SPOIL(step, d->step = -0.1)
 SPOIL(safety, d->safety = 0)
 
+static const struct {
+  spoil *apply;
+  const char *start, *said;
+} rules[] = {
+    {no_material, "materials: ", "at least one"},
+    {axial, "materials[1].axial.n: -5 kPa: ", "zero or more"},
+    {axial_nan, "materials[0].axial.f: ", "zero or more"},
+    {angular, "materials[0].angular.sn: ", "zero or more"},
+    {damping, "materials[0].damping.f: ", "zero or more"},
+    {material_name, "materials[1].name: \"a,b\": ", "without commas"},
+    {surface_name, "surfaces[0].name: ", "without commas, brackets, quotes"},
+    {set_name, "node_sets[1].name: ", "backslashes"},
+    {density, "materials[0].density: 0 mg/mm3: ", "above zero"},
+    {no_volume, "materials[1].volume_modulus: 0 kPa: ", "10 to 100 times"},
+    {huge_volume, "materials[1].volume_modulus: ", "above zero"},
+    {stabilization, "materials[0].stabilization: ", "zero or more"},
+    {tension, "materials[0].active.tension: -60 kPa: ", "zero or more"},
+    {length_factor, "materials[0].active.length_factor: ", "finite"},
+    {sheet_fraction, "materials[0].active.sheet_fraction: -0.1: ", "zero or more"},
+    {viscosity, "materials[0].viscosity: -1 kPa ms: ", "zero or more"},
+    {coupling, "materials[0].coupling.fs: -1100 kPa: ", "smaller couplings"},
+    {coupling_nan, "materials[0].coupling.nf: ", "finite"},
+    {neo_hookean, "materials[1].neo_hookean.shear: 0 kPa: ", "above zero"},
+    {guccione, "materials[1].guccione.bt: -2: ", "above zero"},
+    {fung, "materials[1].fung.bsn: 0: ", "above zero"},
+    {dispersion, "materials[1].holzapfel_ogden.kappa_f: 0.4: ", "1/3"},
+    {fibre_exponent, "materials[1].holzapfel_ogden.bf: 0: ", "above zero"},
+    {rivlin, "materials[1].mooney_rivlin.c2: -0.5 kPa: ", "zero or more"},
+    {westmann, "materials[1].veronda_westmann.c2: 0: ", "above zero"},
+    {active_tissue, "materials[0].active.kind: ", "kind: tension"},
+    {rest_stretch, "materials[1].active.rest_stretch: 0: ", "up to 1"},
+    {stiffness, "materials[1].active.stiffness: ", "zero or more"},
+    {delay, "materials[0].active.delay: ", "finite"},
+    {delay_unit, "materials[0].active.delay_unit: ", "above zero"},
+    {one_point, "materials[0].active.curve.times: 1 points: ", "at least two"},
+    {falling, "materials[0].active.curve.times[2]: 100 ms: ", "rise"},
+    {table_nan, "materials[0].active.curve.values[1]: ", "finite"},
+    {duration, "pressures[0].curve.duration: ", "above zero"},
+    {period, "pressures[0].curve.period: 200 ms: ", "longer period"},
+    {cut_off, "pressures[0].curve.period: 800 ms: ", "after the start"},
+    {early_start, "pressures[0].curve.start: -10 ms: ", "0 ms or later"},
+    {long_table, "materials[0].active.curve.period: 100 ms: ", "longer period"},
+    {negative_period, "pressures[0].curve.period: ", "zero or more"},
+    {rise, "pressures[0].curve.rise: ", "above zero"},
+    {fall, "pressures[0].curve.fall: -20 ms: ", "above zero"},
+    {power, "pressures[0].curve.fall_power: 0: ", "above zero"},
+    {stop, "pressures[0].curve.stop: 484 ms: ", "after the start"},
+    {width, "pressures[0].curve.width: 0 ms: ", "above zero"},
+    {rate_up, "pressures[0].curve.rate_up: 0 1/ms: ", "above zero"},
+    {rate_down, "pressures[0].curve.rate_down: 0.03 1/ms: ", "below zero"},
+    {filling, "pressures[0].curve.filling: -1 1/ms: ", "zero or more"},
+    {driver_period, "pressures[0].curve.period: 480 ms: ", "after its stop"},
+    {start, "pressures[0].curve.start: ", "finite"},
+    {peak, "pressures[0].peak: ", "finite"},
+    {shared_region, "materials[1].regions: 3: ", "muscle"},
+    {two_rests, "materials[1].regions: ", "list regions"},
+    {range, "surfaces[0].range: ", "not be above"},
+    {box, "node_sets[0].box.low: 1 mm: ", "box.high"},
+    {normal, "node_sets[0].plane.normal: ", "not zero"},
+    {tolerance, "node_sets[0].plane.tolerance: ", "zero or more"},
+    {same_name, "node_sets[1].name: ", "node_sets[0] already"},
+    {no_name, "surfaces[0].name: ", "give it a name"},
+    {set_of_surface, "node_sets[1].surface: ", "the nearest is endo"},
+    {support_set, "supports[0].set: ", "the nearest is base"},
+    {boundary_set, "supports[0].set: ", "under node_sets"},
+    {held, "supports[0].held: ", "x, y, z"},
+    {free_motion, "supports[0].motion: 2 mm: ", "`held`"},
+    {motion_nan, "supports[0].motion: ", "finite"},
+    {motion_curve, "supports[0].curve.duration: ", "above zero"},
+    {kept_motion, "supports[0].motion: 1 mm: ", "keep_volume"},
+    {robin_surface, "robin[0].surface: ", "the nearest is endo"},
+    {robin_stiffness, "robin[0].stiffness: -1 kPa/mm: ", "zero or more"},
+    {robin_damping, "robin[0].damping: ", "zero or more"},
+    {robin_nothing, "robin[0].stiffness: 0 kPa/mm: ", "above zero"},
+    {pressure_surface, "pressures[0].surface: ", "the nearest is endo"},
+    {velocity_of_equilibrium, "initial_velocity.node_array: \"v\": ", "explicit or implicit"},
+    {velocity_unit, "initial_velocity.unit: 0 m/s: ", "not zero"},
+    {gravity, "gravity: ", "finite"},
+    {end_time, "time.end: 0 ms: ", "above zero"},
+    {step, "time.step: -0.1 ms: ", "zero or more"},
+    {safety, "time.safety: 0: ", "up to 1"},
+};
+
 static void every_rule_names_its_key(void **state)
 {
   (void)state;
-  const struct {
-    spoil *apply;
-    const char *start, *said;
-  } cases[] = {
-      {no_material, "materials: ", "at least one"},
-      {axial, "materials[1].axial.n: -5 kPa: ", "zero or more"},
-      {axial_nan, "materials[0].axial.f: ", "zero or more"},
-      {angular, "materials[0].angular.sn: ", "zero or more"},
-      {damping, "materials[0].damping.f: ", "zero or more"},
-      {material_name, "materials[1].name: \"a,b\": ", "without commas"},
-      {surface_name, "surfaces[0].name: ", "without commas, brackets, quotes"},
-      {set_name, "node_sets[1].name: ", "backslashes"},
-      {density, "materials[0].density: 0 mg/mm3: ", "above zero"},
-      {no_volume, "materials[1].volume_modulus: 0 kPa: ", "10 to 100 times"},
-      {huge_volume, "materials[1].volume_modulus: ", "above zero"},
-      {stabilization, "materials[0].stabilization: ", "zero or more"},
-      {tension, "materials[0].active.tension: -60 kPa: ", "zero or more"},
-      {length_factor, "materials[0].active.length_factor: ", "finite"},
-      {sheet_fraction, "materials[0].active.sheet_fraction: -0.1: ", "zero or more"},
-      {viscosity, "materials[0].viscosity: -1 kPa ms: ", "zero or more"},
-      {coupling, "materials[0].coupling.fs: -1100 kPa: ", "smaller couplings"},
-      {coupling_nan, "materials[0].coupling.nf: ", "finite"},
-      {neo_hookean, "materials[1].neo_hookean.shear: 0 kPa: ", "above zero"},
-      {guccione, "materials[1].guccione.bt: -2: ", "above zero"},
-      {fung, "materials[1].fung.bsn: 0: ", "above zero"},
-      {dispersion, "materials[1].holzapfel_ogden.kappa_f: 0.4: ", "1/3"},
-      {fibre_exponent, "materials[1].holzapfel_ogden.bf: 0: ", "above zero"},
-      {rivlin, "materials[1].mooney_rivlin.c2: -0.5 kPa: ", "zero or more"},
-      {westmann, "materials[1].veronda_westmann.c2: 0: ", "above zero"},
-      {active_tissue, "materials[0].active.kind: ", "kind: tension"},
-      {rest_stretch, "materials[1].active.rest_stretch: 0: ", "up to 1"},
-      {stiffness, "materials[1].active.stiffness: ", "zero or more"},
-      {delay, "materials[0].active.delay: ", "finite"},
-      {delay_unit, "materials[0].active.delay_unit: ", "above zero"},
-      {one_point, "materials[0].active.curve.times: 1 points: ", "at least two"},
-      {falling, "materials[0].active.curve.times[2]: 100 ms: ", "rise"},
-      {table_nan, "materials[0].active.curve.values[1]: ", "finite"},
-      {duration, "pressures[0].curve.duration: ", "above zero"},
-      {period, "pressures[0].curve.period: 200 ms: ", "longer period"},
-      {cut_off, "pressures[0].curve.period: 800 ms: ", "after the start"},
-      {early_start, "pressures[0].curve.start: -10 ms: ", "0 ms or later"},
-      {long_table, "materials[0].active.curve.period: 100 ms: ", "longer period"},
-      {negative_period, "pressures[0].curve.period: ", "zero or more"},
-      {rise, "pressures[0].curve.rise: ", "above zero"},
-      {fall, "pressures[0].curve.fall: -20 ms: ", "above zero"},
-      {power, "pressures[0].curve.fall_power: 0: ", "above zero"},
-      {stop, "pressures[0].curve.stop: 484 ms: ", "after the start"},
-      {width, "pressures[0].curve.width: 0 ms: ", "above zero"},
-      {rate_up, "pressures[0].curve.rate_up: 0 1/ms: ", "above zero"},
-      {rate_down, "pressures[0].curve.rate_down: 0.03 1/ms: ", "below zero"},
-      {filling, "pressures[0].curve.filling: -1 1/ms: ", "zero or more"},
-      {driver_period, "pressures[0].curve.period: 480 ms: ", "after its stop"},
-      {start, "pressures[0].curve.start: ", "finite"},
-      {peak, "pressures[0].peak: ", "finite"},
-      {shared_region, "materials[1].regions: 3: ", "muscle"},
-      {two_rests, "materials[1].regions: ", "list regions"},
-      {range, "surfaces[0].range: ", "not be above"},
-      {box, "node_sets[0].box.low: 1 mm: ", "box.high"},
-      {normal, "node_sets[0].plane.normal: ", "not zero"},
-      {tolerance, "node_sets[0].plane.tolerance: ", "zero or more"},
-      {same_name, "node_sets[1].name: ", "node_sets[0] already"},
-      {no_name, "surfaces[0].name: ", "give it a name"},
-      {set_of_surface, "node_sets[1].surface: ", "the nearest is endo"},
-      {support_set, "supports[0].set: ", "the nearest is base"},
-      {boundary_set, "supports[0].set: ", "under node_sets"},
-      {held, "supports[0].held: ", "x, y, z"},
-      {free_motion, "supports[0].motion: 2 mm: ", "`held`"},
-      {motion_nan, "supports[0].motion: ", "finite"},
-      {motion_curve, "supports[0].curve.duration: ", "above zero"},
-      {kept_motion, "supports[0].motion: 1 mm: ", "keep_volume"},
-      {robin_surface, "robin[0].surface: ", "the nearest is endo"},
-      {robin_stiffness, "robin[0].stiffness: -1 kPa/mm: ", "zero or more"},
-      {robin_damping, "robin[0].damping: ", "zero or more"},
-      {robin_nothing, "robin[0].stiffness: 0 kPa/mm: ", "above zero"},
-      {pressure_surface, "pressures[0].surface: ", "the nearest is endo"},
-      {velocity_of_equilibrium, "initial_velocity.node_array: \"v\": ", "explicit or implicit"},
-      {velocity_unit, "initial_velocity.unit: 0 m/s: ", "not zero"},
-      {gravity, "gravity: ", "finite"},
-      {end_time, "time.end: 0 ms: ", "above zero"},
-      {step, "time.step: -0.1 ms: ", "zero or more"},
-      {safety, "time.safety: 0: ", "up to 1"},
-  };
-  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+  for (size_t i = 0; i < sizeof rules / sizeof *rules; i++) {
     vsc_definition d = make_good();
     vsc_error error = {.text = ""};
-    cases[i].apply(&d);
+    rules[i].apply(&d);
     if (vsc_definition_check(&d, &error) != VSC_INPUT)
-      fail_msg("accepted, without \"%s\"", cases[i].start);
-    if (strncmp(error.text, cases[i].start, strlen(cases[i].start)) != 0)
-      fail_msg("\"%s\" does not begin with \"%s\"", error.text, cases[i].start);
-    if (strstr(error.text, cases[i].said) == NULL)
-      fail_msg("\"%s\" lacks \"%s\"", error.text, cases[i].said);
-    if (cases[i].apply == no_material) d.material_count = 2;
+      fail_msg("accepted, without \"%s\"", rules[i].start);
+    if (strncmp(error.text, rules[i].start, strlen(rules[i].start)) != 0)
+      fail_msg("\"%s\" does not begin with \"%s\"", error.text, rules[i].start);
+    if (strstr(error.text, rules[i].said) == NULL)
+      fail_msg("\"%s\" lacks \"%s\"", error.text, rules[i].said);
+    if (rules[i].apply == no_material) d.material_count = 2;
     vsc_definition_free(&d);
   }
 }

@@ -25,7 +25,7 @@ VSC_INLINE vsc_wide3 along_axis(const double d[3], const vsc_wide3 g[3])
 // ---- cells
 
 VSC_INLINE void add_more_axes(const vsc_model *model, const vsc_material *material, vsc_wide V,
-                          const vsc_wide3 g[3], const vsc_wide3 rate[3], vsc_pack_energies *sum)
+                              const vsc_wide3 g[3], const vsc_wide3 rate[3], vsc_pack_energies *sum)
 {
   for (size_t d = 0; d < material->axis_count; d++) {
     const vsc_axis *axis = &model->axes[material->first_axis + d];
@@ -45,8 +45,8 @@ VSC_INLINE void add_more_axes(const vsc_model *model, const vsc_material *materi
 }
 
 VSC_INLINE void add_springs(const vsc_model *model, const vsc_material *material,
-                        const vsc_pack_law *law, vsc_wide V, const vsc_wide3 g[3],
-                        const vsc_wide3 rate[3], vsc_pack_energies *sum)
+                            const vsc_pack_law *law, vsc_wide V, const vsc_wide3 g[3],
+                            const vsc_wide3 rate[3], vsc_pack_energies *sum)
 {
   const vsc_frame_axes axes = vsc_frame_of(g);
   sum->axial += V * vsc_springs_axial_energy(&law->springs, &axes);
@@ -61,7 +61,7 @@ VSC_INLINE void add_springs(const vsc_model *model, const vsc_material *material
 
 // psi - m ln J of a tissue law.
 VSC_INLINE void add_tissue(const vsc_material *material, vsc_wide V, const vsc_wide3 g[3],
-                       vsc_pack_energies *sum)
+                           vsc_pack_energies *sum)
 {
   const vsc_law_input in = {.material = material, .moduli = vsc_moduli_or(material, NULL)};
   const vsc_wide J = vsc_pack_ratio(g);
@@ -87,8 +87,8 @@ VSC_INLINE vsc_wide viscous_power(vsc_wide viscosity, const vsc_wide3 g[3], cons
 
 // Four frames of any law of strain, which stand for the volumes V.
 VSC_INLINE void add_law(const vsc_model *model, const vsc_material *material, const vsc_pack_law *law,
-                    vsc_wide V, const vsc_wide3 g[3], const vsc_wide3 rate[3],
-                    vsc_pack_energies *sum)
+                        vsc_wide V, const vsc_wide3 g[3], const vsc_wide3 rate[3],
+                        vsc_pack_energies *sum)
 {
   if (material->law == VSC_LAW_SPRINGS)
     add_springs(model, material, law, V, g, rate, sum);
@@ -109,7 +109,7 @@ vsc_pack_energies vsc_edge_energies_of(const vsc_model *model, const vsc_edge_wo
 }
 
 VSC_CLONED static vsc_pack_energies cells(const vsc_model *model, const vsc_patch *patch, size_t k, const vsc_pack_law *law,
-                               vsc_wide3 (*axes)[3], const double *v)
+                                          vsc_wide3 (*axes)[3], const double *v)
 {
   const vsc_material *material = &model->materials[patch->material];
   const vsc_frame *frames = vsc_pack_frames(model, patch, k);
@@ -137,7 +137,7 @@ VSC_CLONED static vsc_pack_energies cells(const vsc_model *model, const vsc_patc
 // ---- law PAPER
 
 VSC_INLINE void add_paper_axes(const vsc_paper_def *paper, const vsc_wide3 l[3], const vsc_wide3 rate[3],
-                           const vsc_wide r[3], vsc_pack_energies *sum)
+                               const vsc_wide r[3], vsc_pack_energies *sum)
 {
   vsc_wide length[3];
   for (int a = 0; a < 3; a++) {

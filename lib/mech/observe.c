@@ -51,7 +51,7 @@ typedef struct observation {
 // Active tension of four frames: its range, and its work since the last call. `place` is where the
 // ledger keeps the first, `taken` says which are there.
 VSC_INLINE void add_active(const observation *o, vsc_wide tension, vsc_wide way, vsc_wide V, size_t place,
-                       const bool taken[VSC_WIDTH], vsc_totals *part)
+                           const bool taken[VSC_WIDTH], vsc_totals *part)
 {
   vsc_ledger *ledger = o->ledger;
   for (size_t l = 0; l < VSC_WIDTH; l++) {
@@ -67,7 +67,7 @@ VSC_INLINE void add_active(const observation *o, vsc_wide tension, vsc_wide way,
 
 // What one pack of frames shows: volume ratios, stretches.
 VSC_INLINE void add_frames(const vsc_model *model, size_t k, vsc_wide V, const vsc_wide3 g[3],
-                       const bool taken[VSC_WIDTH], bool inverted[VSC_WIDTH], vsc_totals *part)
+                           const bool taken[VSC_WIDTH], bool inverted[VSC_WIDTH], vsc_totals *part)
 {
   const vsc_wide J = vsc_pack_ratio(g), stretch = vsc_wide_sqrt(vsc_wide_dot(g[0], g[0]));
   for (size_t l = 0; l < VSC_WIDTH; l++) {
@@ -86,7 +86,7 @@ VSC_INLINE void add_frames(const vsc_model *model, size_t k, vsc_wide V, const v
 
 // What the frames of one pack of cells show: volume ratios, stretches, active tension.
 VSC_INLINE void observe_frames(const observation *o, const vsc_patch *patch, size_t k, const vsc_pack_law *law,
-                           vsc_wide3 (*axes)[3], vsc_totals *part)
+                               vsc_wide3 (*axes)[3], vsc_totals *part)
 {
   const vsc_model *model = o->model;
   const vsc_material *material = &model->materials[patch->material];

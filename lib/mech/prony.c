@@ -52,7 +52,7 @@ VSC_INLINE vsc_wide share_of(const vsc_model *model, const vsc_patch *patch, siz
 
 // S_0 of the own material's share, with J p C^-1 of p = -m/J: (C^-1)_ab = cof_a . cof_b / J^2.
 VSC_INLINE void passive_stress(const vsc_law_input *in, vsc_wide share, const vsc_wide3 g[3],
-                           const vsc_wide e[6], vsc_wide S[6])
+                               const vsc_wide e[6], vsc_wide S[6])
 {
   vsc_law_answer answer;
   vsc_wide3 cofactor[3];
@@ -97,7 +97,7 @@ VSC_INLINE void past_of(const vsc_material *material, const branch_step *step, c
 // Carries one frame on to strain e and stress S_0; returns (S - S_0) : dE of the step, by the
 // trapezoidal rule.
 VSC_INLINE vsc_wide carry_frame(const vsc_material *material, const branch_step *step,
-                            const vsc_wide e[6], const vsc_wide S[6], vsc_wide *memory)
+                                const vsc_wide e[6], const vsc_wide S[6], vsc_wide *memory)
 {
   vsc_wide work = vsc_splat(0);
   for (int k = 0; k < 6; k++) {
@@ -176,7 +176,7 @@ double vsc_prony_past(const vsc_model *model, const vsc_patch *patch, size_t k, 
 
 // f_i = -sum_k D_ki V sum_a P_a T_ak of stress S on frame q of four cells with axes g.
 VSC_INLINE void add_force(const vsc_model *model, const vsc_patch *patch, size_t k, int q, const vsc_wide3 g[3],
-                      const vsc_wide S[6], double *f)
+                          const vsc_wide S[6], double *f)
 {
   const uint16_t(*node)[VSC_WIDTH] = vsc_pack_nodes(model, patch, k);
   const vsc_frame *frame = vsc_pack_frames(model, patch, k) + q;
@@ -198,7 +198,7 @@ VSC_INLINE void add_force(const vsc_model *model, const vsc_patch *patch, size_t
 }
 
 VSC_CLONED void vsc_prony_force(const vsc_model *model, const vsc_patch *patch, const double *prony, double dt,
-                     const double *x, double *f)
+                                const double *x, double *f)
 {
   const vsc_material *material = &model->materials[patch->material];
   if (!vsc_patch_is_solid(patch) || material->branch_count == 0) return;

@@ -25,16 +25,17 @@ static bool is_taken(const vsc_watch *watch, size_t column)
   return false;
 }
 
-// One column of the row being made, with its name; numbered from 2 on where an earlier one has it, as that of a second
-// load on the same surface.
+// One column of the row being made. With the first row it gets its name; numbered from 2 on where an earlier one has
+// it, as that of a second load on the same surface.
 static void put(vsc_watch *watch, const char *unit, double value, const char *name,
                 const char *suffix)
 {
   const size_t k = watch->signal_count++;
+  watch->values[k] = value;
+  if (watch->names[k][0] != '\0') return;
   snprintf(watch->names[k], VSC_SIGNAL_NAME, "%s%s [%s]", name, suffix, unit);
   for (int n = 2; is_taken(watch, k); n++)
     snprintf(watch->names[k], VSC_SIGNAL_NAME, "%s%s_%d [%s]", name, suffix, n, unit);
-  watch->values[k] = value;
 }
 
 static void put_energies(const vsc_model *model, vsc_watch *watch)
