@@ -30,6 +30,7 @@ extern "C" {
 #include "io/vtk_polydata.h"
 }
 #include "io/vtk_cells.hh"
+#include "io/vtk_deflate.hh"
 #include "io/vtk_quiet.hh"
 
 namespace {
@@ -37,10 +38,6 @@ namespace {
 using vsc::guarded;
 using vsc::set_cells;
 using vsc::silence;
-
-// zlib's quickest level: a frame's numbers are hardly smaller at the higher ones, which take
-// several times as long.
-constexpr int COMPRESSION_LEVEL = 1;
 
 int to_int(double value)
 {
@@ -109,8 +106,7 @@ vsc_status write_file(const char *file, vtkDataObject *object, vsc_error *error)
     // Debian 12's ParaView, with its newest expat, cannot read appended data of any encoding.
     writer->SetDataModeToBinary();
     writer->SetHeaderTypeToUInt64();
-    writer->SetCompressorTypeToZLib();
-    writer->SetCompressionLevel(COMPRESSION_LEVEL);
+    writer->SetCompressor(vtkNew<vsc::deflate>());
     written = writer->Write() == 1 && writer->GetErrorCode() == 0 && !quiet.failed();
   } catch (...) {
     vsc_replace_cancel(temporary);
