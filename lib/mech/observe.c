@@ -48,77 +48,96 @@ typedef struct observation {
   vsc_ledger *ledger;
 } observation;
 
+// What the frames of one patch, or the edges of one block, come to, each lane for itself.
+typedef struct lanes {
+  vsc_pack_energies energies;
+  vsc_wide volume, J_low, J_high, inverted;
+  vsc_wide known_volume, stretch_low, stretch_high, stretch_mean;
+  vsc_wide tension_high, tension_mean, active_work;
+} lanes;
+
+static lanes empty_lanes(void)
+{
+  return (lanes){.J_low = vsc_splat(DBL_MAX),
+                 .J_high = vsc_splat(-DBL_MAX),
+                 .stretch_low = vsc_splat(DBL_MAX),
+                 .stretch_high = vsc_splat(-DBL_MAX)};
+}
+
+VSC_INLINE vsc_wide smaller(vsc_wide_mask some, vsc_wide a, vsc_wide least)
+{
+  return vsc_select(some & (a < least), a, least);
+}
+
+VSC_INLINE vsc_wide larger(vsc_wide_mask some, vsc_wide a, vsc_wide most)
+{
+  return vsc_select(some & (a > most), a, most);
+}
+
 // Active tension of four frames: its range, and its work since the last call. `place` is where the
 // ledger keeps the first, `taken` says which are there.
 VSC_INLINE void add_active(const observation *o, vsc_wide tension, vsc_wide way, vsc_wide V, size_t place,
-                           const bool taken[VSC_WIDTH], vsc_totals *part)
+                           vsc_wide_mask taken, lanes *sum)
 {
-  vsc_ledger *ledger = o->ledger;
-  for (size_t l = 0; l < VSC_WIDTH; l++) {
-    if (!taken[l]) continue;
-    part->tension_high = fmax(part->tension_high, tension[l]);
-    part->tension_mean += V[l] * tension[l];
-    // a tension that shortens the fibre does work
-    part->active_work -= V[l] * 0.5 * (tension[l] + ledger->tension[place + l]) * (way[l] - ledger->way[place + l]);
-    ledger->way[place + l] = way[l];
-    ledger->tension[place + l] = tension[l];
-  }
+  vsc_wide *last_way = (vsc_wide *)(o->ledger->way + place), *last = (vsc_wide *)(o->ledger->tension + place);
+  sum->tension_high = larger(taken, tension, sum->tension_high);
+  sum->tension_mean += vsc_where(taken, V * tension);
+  // a tension that shortens the fibre does work
+  sum->active_work -= vsc_where(taken, V * 0.5 * (tension + *last) * (way - *last_way));
+  *last_way = way;
+  *last = tension;
 }
 
 // What one pack of frames shows: volume ratios, stretches.
-VSC_INLINE void add_frames(const vsc_model *model, size_t k, vsc_wide V, const vsc_wide3 g[3],
-                           const bool taken[VSC_WIDTH], bool inverted[VSC_WIDTH], vsc_totals *part)
+VSC_INLINE void add_frames(vsc_wide V, const vsc_wide3 g[3], vsc_wide_mask taken, vsc_wide_mask known, lanes *sum)
 {
   const vsc_wide J = vsc_pack_ratio(g), stretch = vsc_wide_sqrt(vsc_wide_dot(g[0], g[0]));
-  for (size_t l = 0; l < VSC_WIDTH; l++) {
-    if (!taken[l]) continue;
-    part->volume += V[l] * J[l];
-    part->J_low = fmin(part->J_low, J[l]);
-    part->J_high = fmax(part->J_high, J[l]);
-    inverted[l] |= J[l] <= 0;
-    if (!model->known[VSC_WIDTH * k + l]) continue;
-    part->stretch_low = fmin(part->stretch_low, stretch[l]);
-    part->stretch_high = fmax(part->stretch_high, stretch[l]);
-    part->stretch_mean += V[l] * stretch[l];
-    part->known_volume += V[l];
-  }
+  sum->volume += vsc_where(taken, V * J);
+  sum->J_low = smaller(taken, J, sum->J_low);
+  sum->J_high = larger(taken, J, sum->J_high);
+  sum->stretch_low = smaller(known, stretch, sum->stretch_low);
+  sum->stretch_high = larger(known, stretch, sum->stretch_high);
+  sum->stretch_mean += vsc_where(known, V * stretch);
+  sum->known_volume += vsc_where(known, V);
 }
 
 // What the frames of one pack of cells show: volume ratios, stretches, active tension.
 VSC_INLINE void observe_frames(const observation *o, const vsc_patch *patch, size_t k, const vsc_pack_law *law,
-                               vsc_wide3 (*axes)[3], vsc_totals *part)
+                               vsc_wide3 (*axes)[3], lanes *sum)
 {
   const vsc_model *model = o->model;
   const vsc_material *material = &model->materials[patch->material];
   const size_t points = (size_t)vsc_family_frames(model, patch->family);
   const bool active = material->active != VSC_ACTIVE_NONE && !patch->smoothed;
   vsc_wide activation = vsc_splat(0);
-  bool taken[VSC_WIDTH], inverted[VSC_WIDTH] = {false};
+  vsc_wide_mask taken = {0}, known = {0}, inverted = {0};
   if (active) activation = vsc_pack_activation(model, material, k, o->state->time);
-  for (size_t l = 0; l < VSC_WIDTH; l++) taken[l] = model->mesh_element[VSC_WIDTH * k + l] != VSC_NO_ELEMENT;
+  for (size_t l = 0; l < VSC_WIDTH; l++) {
+    taken[l] = -(model->mesh_element[VSC_WIDTH * k + l] != VSC_NO_ELEMENT);
+    known[l] = -(taken[l] && model->known[VSC_WIDTH * k + l]);
+  }
   for (size_t q = 0; q < points; q++) {
     const vsc_wide V = vsc_pack_frames(model, patch, k)[q].V;
-    add_frames(model, k, V, axes[q], taken, inverted, part);
+    add_frames(V, axes[q], taken, known, sum);
+    inverted |= taken & (vsc_pack_ratio(axes[q]) <= 0);
     if (!active) continue;
     vsc_wide way;
     const vsc_wide tension = vsc_active_tension(material, law, activation, axes[q], &way);
     const size_t frame = patch->first_frame + (k - patch->first_pack) * points + q;
-    add_active(o, tension, way, V, VSC_WIDTH * frame, taken, part);
+    add_active(o, tension, way, V, VSC_WIDTH * frame, taken, sum);
   }
-  for (int l = 0; l < VSC_WIDTH; l++) part->inverted += inverted[l];
+  sum->inverted += vsc_where(inverted, vsc_splat(1));
 }
 
-VSC_INLINE void add_energies(const vsc_pack_energies *energies, vsc_totals *part)
+VSC_INLINE void add_energies(const vsc_pack_energies *energies, vsc_pack_energies *sum)
 {
-  for (int l = 0; l < VSC_WIDTH; l++) {
-    part->axial += energies->axial[l];
-    part->angular += energies->angular[l];
-    part->volume_energy += energies->volume[l];
-    part->membrane += energies->membrane[l];
-    part->bending += energies->bending[l];
-    part->dissipation += energies->dissipation[l];
-    part->continued += energies->continued[l];
-  }
+  sum->axial += energies->axial;
+  sum->angular += energies->angular;
+  sum->volume += energies->volume;
+  sum->membrane += energies->membrane;
+  sum->bending += energies->bending;
+  sum->dissipation += energies->dissipation;
+  sum->continued += energies->continued;
 }
 
 static vsc_totals empty_totals(void)
@@ -131,15 +150,41 @@ static vsc_totals empty_totals(void)
                       .group_high = 1};
 }
 
-static void observe_surfaces(const observation *o, const vsc_patch *patch, vsc_totals *part)
+static vsc_totals totals_of(const lanes *sum)
+{
+  vsc_totals part = empty_totals();
+  for (int l = 0; l < VSC_WIDTH; l++) {
+    part.axial += sum->energies.axial[l];
+    part.angular += sum->energies.angular[l];
+    part.volume_energy += sum->energies.volume[l];
+    part.membrane += sum->energies.membrane[l];
+    part.bending += sum->energies.bending[l];
+    part.dissipation += sum->energies.dissipation[l];
+    part.continued += sum->energies.continued[l];
+    part.volume += sum->volume[l];
+    part.J_low = fmin(part.J_low, sum->J_low[l]);
+    part.J_high = fmax(part.J_high, sum->J_high[l]);
+    part.inverted += sum->inverted[l];
+    part.known_volume += sum->known_volume[l];
+    part.stretch_low = fmin(part.stretch_low, sum->stretch_low[l]);
+    part.stretch_high = fmax(part.stretch_high, sum->stretch_high[l]);
+    part.stretch_mean += sum->stretch_mean[l];
+    part.tension_high = fmax(part.tension_high, sum->tension_high[l]);
+    part.tension_mean += sum->tension_mean[l];
+    part.active_work += sum->active_work[l];
+  }
+  return part;
+}
+
+static void observe_surfaces(const observation *o, const vsc_patch *patch, lanes *sum)
 {
   for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++) {
     const vsc_pack_energies energies = vsc_surface_energies_of(o->model, patch, k, o->state->x, o->state->v);
-    add_energies(&energies, part);
+    add_energies(&energies, &sum->energies);
   }
 }
 
-VSC_CLONED static void observe_cells(const observation *o, const vsc_patch *patch, vsc_totals *part)
+VSC_CLONED static void observe_cells(const observation *o, const vsc_patch *patch, lanes *sum)
 {
   const vsc_model *model = o->model;
   const double *x = o->state->x, *v = o->state->v;
@@ -151,8 +196,8 @@ VSC_CLONED static void observe_cells(const observation *o, const vsc_patch *patc
     if (own || k == patch->first_pack) law = vsc_pack_law_of(model, patch, k);
     for (int q = 0; q < points; q++) vsc_pack_axes(model, patch, k, q, x, axes[q]);
     const vsc_pack_energies energies = vsc_cell_energies_of(model, patch, k, &law, axes, x, v);
-    add_energies(&energies, part);
-    observe_frames(o, patch, k, &law, axes, part);
+    add_energies(&energies, &sum->energies);
+    observe_frames(o, patch, k, &law, axes, sum);
   }
 }
 
@@ -161,26 +206,23 @@ static void observe_patch(void *context, size_t p, int thread)
   (void)thread;
   const observation *o = context;
   const vsc_patch *patch = &o->model->patches[p];
-  vsc_totals *part = &o->ledger->parts[p];
-  *part = empty_totals();
+  lanes sum = empty_lanes();
   if (vsc_patch_is_solid(patch))
-    observe_cells(o, patch, part);
+    observe_cells(o, patch, &sum);
   else
-    observe_surfaces(o, patch, part);
+    observe_surfaces(o, patch, &sum);
+  o->ledger->parts[p] = totals_of(&sum);
 }
 
 // Active tension of the four edges from `edge` on.
 static void observe_edge_tension(const observation *o, const vsc_edge_work *work, const vsc_pack_law *law, size_t edge,
-                                 vsc_wide V, const vsc_wide3 g[3], vsc_totals *part)
+                                 vsc_wide V, const vsc_wide3 g[3], lanes *sum)
 {
   vsc_wide activation = vsc_splat(0), way;
-  bool taken[VSC_WIDTH];
-  for (size_t l = 0; l < VSC_WIDTH; l++) {
+  for (size_t l = 0; l < VSC_WIDTH; l++)
     activation[l] = vsc_model_edge_activation(o->model, work->material, edge + l, o->state->time);
-    taken[l] = V[l] > 0;
-  }
   const vsc_wide tension = vsc_active_tension(work->material, law, activation, g, &way);
-  add_active(o, tension, way, V, VSC_WIDTH * o->model->frame_count + edge, taken, part);
+  add_active(o, tension, way, V, VSC_WIDTH * o->model->frame_count + edge, V > 0, sum);
 }
 
 // The laws of smoothed tets, and their active tension, on a block of edges.
@@ -194,15 +236,15 @@ static void observe_edges(void *context, size_t b, int thread)
   if (work.material->damped) work.rate = o->state->scratch.rate;
   const bool active = work.material->active != VSC_ACTIVE_NONE;
   const vsc_pack_law law = vsc_material_law(work.material);
-  vsc_totals *part = &o->ledger->parts[model->patch_count + b];
-  *part = empty_totals();
+  lanes sum = empty_lanes();
   for (size_t k = 0; k < work.pack_count; k++) {
     const vsc_pack_energies energies = vsc_edge_energies_of(model, &work, k);
-    add_energies(&energies, part);
+    add_energies(&energies, &sum.energies);
     vsc_wide3 g[3];
     if (active) vsc_edge_axes(&work, k, work.gradient, g);
-    if (active) observe_edge_tension(o, &work, &law, VSC_WIDTH * (block->first_pack + k), work.frames[k].V, g, part);
+    if (active) observe_edge_tension(o, &work, &law, VSC_WIDTH * (block->first_pack + k), work.frames[k].V, g, &sum);
   }
+  o->ledger->parts[model->patch_count + b] = totals_of(&sum);
 }
 
 static void add_part(const vsc_totals *part, vsc_totals *totals)
