@@ -25,11 +25,11 @@ static struct {
   range ranges[MOST_THREADS];
   _Alignas(64) atomic_size_t done; // on a line of its own: what threads look at for each piece is only read in a call
   _Alignas(64) atomic_uint_least32_t call;  // its number; changes when there is work
-  atomic_size_t pieces;
+  _Alignas(64) atomic_size_t pieces;
   atomic_int threads;              // that take part
   _Atomic(vsc_piece *) work;
   _Atomic(void *) context;
-  atomic_flag busy;                // somebody is calling
+  _Alignas(64) atomic_flag busy;                // somebody is calling
   int workers;                     // threads that have been started
   int most;                        // ranges that have been in use
   atomic_int sleepers[2];          // workers that wait for a call; callers that wait for its end
