@@ -33,10 +33,16 @@ VSC_INLINE corner_nodes corner_of(const uint16_t *node, size_t bytes)
   return (corner_nodes){{node, (const uint16_t *)((const char *)node + bytes)}};
 }
 
+// Where a node's four numbers begin. A size_t at once: an int would be widened at each access.
+VSC_INLINE size_t place_of(uint16_t node)
+{
+  return 4 * (size_t)node;
+}
+
 VSC_INLINE vsc_wide node_rows(const double *nodes, const corner_nodes *corner, int l)
 {
-  return vsc_join(*(const vsc_four *)(nodes + 4 * corner->of[0][l]),
-                  *(const vsc_four *)(nodes + 4 * corner->of[1][l]));
+  return vsc_join(*(const vsc_four *)(nodes + place_of(corner->of[0][l])),
+                  *(const vsc_four *)(nodes + place_of(corner->of[1][l])));
 }
 
 // One corner of the elements, from node x 4 numbers.
@@ -51,7 +57,7 @@ VSC_INLINE vsc_wide3 gather_corner(corner_nodes corner, const double *nodes)
 // Rows added to the nodes of one corner of a pack, the p-th of those computed together.
 VSC_INLINE void add_rows(const uint16_t node[VSC_WIDTH], const vsc_wide rows[VSC_WIDTH], int p, double *forces)
 {
-  for (int l = 0; l < VSC_WIDTH; l++) *(vsc_four *)(forces + 4 * node[l]) += vsc_part(rows[l], p);
+  for (int l = 0; l < VSC_WIDTH; l++) *(vsc_four *)(forces + place_of(node[l])) += vsc_part(rows[l], p);
 }
 
 // Adds forces to one corner of the elements of a pack alone.

@@ -184,16 +184,16 @@ VSC_INLINE void spring_kernel(const vsc_patch_work *work, bool damping)
     const vsc_edge_pack *pack = &packs[k];
     vsc_wide d[VSC_WIDTH], inverse;
     for (int l = 0; l < VSC_WIDTH; l++)
-      d[l] = *(const vsc_wide *)(work->x + 4 * pack->node[0][l]) -
-             *(const vsc_wide *)(work->x + 4 * pack->node[1][l]);
+      d[l] = *(const vsc_wide *)(work->x + place_of(pack->node[0][l])) -
+             *(const vsc_wide *)(work->x + place_of(pack->node[1][l]));
     vsc_transpose(&d[0], &d[1], &d[2], &d[3]);
     const vsc_wide3 way = {d[0], d[1], d[2]};
     const vsc_wide length = length_of(way, &inverse);
     vsc_wide force = -stiffness * (length - pack->length);
     if (damping) {
       for (int l = 0; l < VSC_WIDTH; l++)
-        d[l] = *(const vsc_wide *)(work->w + 4 * pack->node[0][l]) -
-               *(const vsc_wide *)(work->w + 4 * pack->node[1][l]);
+        d[l] = *(const vsc_wide *)(work->w + place_of(pack->node[0][l])) -
+               *(const vsc_wide *)(work->w + place_of(pack->node[1][l]));
       vsc_transpose(&d[0], &d[1], &d[2], &d[3]);
       force -= work->material->classical.damping *
                vsc_wide_dot((vsc_wide3){d[0], d[1], d[2]}, way) * inverse;
@@ -202,8 +202,8 @@ VSC_INLINE void spring_kernel(const vsc_patch_work *work, bool damping)
     vsc_wide f[VSC_WIDTH];
     vsc_wide_rows(on_first, f);
     for (int l = 0; l < VSC_WIDTH; l++) {
-      *(vsc_wide *)(work->f + 4 * pack->node[0][l]) += f[l];
-      *(vsc_wide *)(work->f + 4 * pack->node[1][l]) -= f[l];
+      *(vsc_wide *)(work->f + place_of(pack->node[0][l])) += f[l];
+      *(vsc_wide *)(work->f + place_of(pack->node[1][l])) -= f[l];
     }
   }
 }

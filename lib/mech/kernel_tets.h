@@ -57,9 +57,9 @@ VSC_INLINE void scatter_forces(const vsc_pack *pack, size_t other, vsc_wide3 P[3
   for (size_t p = 0; p <= other; p++)
     for (int l = 0; l < VSC_WIDTH; l++) {
       const uint16_t(*node)[VSC_WIDTH] = pack[p].node;
-      *(vsc_four *)(forces + 4 * node[0][l]) -= vsc_part(on_first[l], (int)p);
+      *(vsc_four *)(forces + place_of(node[0][l])) -= vsc_part(on_first[l], (int)p);
       for (int i = 0; i < 3; i++)
-        *(vsc_four *)(forces + 4 * node[i + 1][l]) += vsc_part(f[i][l], (int)p);
+        *(vsc_four *)(forces + place_of(node[i + 1][l])) += vsc_part(f[i][l], (int)p);
     }
 }
 
