@@ -10,11 +10,13 @@
 
 #include <hdf5.h>
 
+#include "base/mem.h"
 #include "io/replace.h"
 
 static const char FORMAT[] = "viscera checkpoint";
 static const int64_t VERSION = 1;
 enum { CHUNK_NUMBERS = 1 << 17 };  // numbers under one checksum
+enum { MEMORY_STEP = 1 << 20 };  // bytes by which a file in memory grows
 enum { TEXT = 256 };  // bytes of an attribute's value that are shown
 
 // ---- checkpoints
@@ -92,33 +94,39 @@ static bool write_block(hid_t file, const vsc_block *block)
   return written;
 }
 
-static bool write_all(const char *name, uint64_t model_hash, size_t block_count,
-                      const vsc_block *blocks)
+// All of a file's content, in memory: HDF5 goes astray, up to the end of the program, where a file cannot be written in
+// full. NULL when there is not enough of it; the caller frees it.
+static void *make_image(const char *name, uint64_t model_hash, size_t block_count, const vsc_block *blocks,
+                        size_t *size)
 {
-  const hid_t file = H5Fcreate(name, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-  if (file < 0) return false;
+  const hid_t memory = H5Pcreate(H5P_FILE_ACCESS);
+  H5Pset_fapl_core(memory, MEMORY_STEP, false);
+  const hid_t file = H5Fcreate(name, H5F_ACC_TRUNC, H5P_DEFAULT, memory);
+  H5Pclose(memory);
+  if (file < 0) return NULL;
   bool written = write_text(file, "format", FORMAT) &&
                  write_attribute(file, "version", H5T_STD_I64LE, H5T_NATIVE_INT64, &VERSION) &&
                  write_attribute(file, "model_hash", H5T_STD_U64LE, H5T_NATIVE_UINT64, &model_hash);
   for (size_t i = 0; i < block_count && written; i++) written = write_block(file, &blocks[i]);
-  return H5Fclose(file) >= 0 && written;
+  written = written && H5Fflush(file, H5F_SCOPE_LOCAL) >= 0;
+  const ssize_t bytes = written ? H5Fget_file_image(file, NULL, 0) : 0;
+  void *image = bytes > 0 ? vsc_alloc((size_t)bytes, 1) : NULL;
+  if (image != NULL) *size = (size_t)H5Fget_file_image(file, image, (size_t)bytes);
+  H5Fclose(file);
+  return image;
 }
 
 static vsc_status write_checkpoint(const char *file, uint64_t model_hash, size_t block_count,
                                    const vsc_block *blocks, vsc_error *error)
 {
-  char temporary[VSC_FILE_NAME];
-  const vsc_status status = vsc_replace_begin(file, temporary, error);
-  if (status != VSC_OK) return status;
   const hush former = hush_hdf5();
-  errno = 0;
-  const bool written = write_all(temporary, model_hash, block_count, blocks);
-  const int reason = errno;
+  size_t size = 0;
+  void *image = make_image(file, model_hash, block_count, blocks, &size);
   unhush_hdf5(former);
-  if (written) return vsc_replace_end(file, temporary, true, error);
-  vsc_replace_cancel(temporary);
-  return vsc_fail(error, VSC_SYSTEM, "%s: HDF5 cannot write it%s%s: is the disk full?", file,
-                  reason != 0 ? ": " : "", reason != 0 ? strerror(reason) : "");
+  if (image == NULL) return vsc_fail_memory(error, "a checkpoint");
+  const vsc_status status = vsc_replace_whole(file, image, size, true, error);
+  vsc_free(image);
+  return status;
 }
 
 static bool read_attribute(hid_t file, const char *name, hid_t type, void *value)

@@ -240,7 +240,7 @@ static void write_time(FILE *stream, double time)
   fputs(text, stream);
 }
 
-static bool write_list(const vsc_pvd *pvd, FILE *stream)
+static void write_list(const vsc_pvd *pvd, FILE *stream)
 {
   fputs("<?xml version=\"1.0\"?>\n"
         "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
@@ -253,22 +253,15 @@ static bool write_list(const vsc_pvd *pvd, FILE *stream)
     fputs("\"/>\n", stream);
   }
   fputs("  </Collection>\n</VTKFile>\n", stream);
-  const bool complete = ferror(stream) == 0;
-  return fclose(stream) == 0 && complete;
 }
 
 vsc_status vsc_pvd_write(const vsc_pvd *pvd, vsc_error *error)
 {
-  char temporary[VSC_FILE_NAME];
-  const vsc_status status = vsc_replace_begin(pvd->file, temporary, error);
+  vsc_replacement list;
+  const vsc_status status = vsc_replace_begin(pvd->file, &list, error);
   if (status != VSC_OK) return status;
-  FILE *stream = fopen(temporary, "wb");
-  if (stream != NULL && write_list(pvd, stream))
-    return vsc_replace_end(pvd->file, temporary, false, error);
-  const int reason = errno;
-  vsc_replace_cancel(temporary);
-  return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s: choose another folder", pvd->file,
-                  strerror(reason));
+  write_list(pvd, list.stream);
+  return vsc_replace_end(&list, false, error);
 }
 
 vsc_status vsc_pvd_add(vsc_pvd *pvd, double time, const char *frame, vsc_error *error)

@@ -2,46 +2,51 @@
 #include "io/replace.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-vsc_status vsc_replace_begin(const char *file, char temporary[VSC_FILE_NAME], vsc_error *error)
+static vsc_status fail_to_write(const char *file, int reason, vsc_error *error)
 {
-  const int length = snprintf(temporary, VSC_FILE_NAME, "%s.tmp", file);
+  return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s: choose another folder, or free some space", file,
+                  reason != 0 ? strerror(reason) : "not all of it arrives");
+}
+
+vsc_status vsc_replace_begin(const char *file, vsc_replacement *replacement, vsc_error *error)
+{
+  const int length = snprintf(replacement->temporary, VSC_FILE_NAME, "%s.tmp", file);
   if (length < 0 || length >= VSC_FILE_NAME)
     return vsc_fail(error, VSC_INPUT, "%.200s...: the file name is too long: choose a shorter one",
                     file);
-  const int handle = open(temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (handle < 0)
-    return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s: choose another folder", file,
-                    strerror(errno));
-  close(handle);
-  return VSC_OK;
+  snprintf(replacement->file, VSC_FILE_NAME, "%s", file);
+  errno = 0;  // from here on it is that of writing
+  replacement->stream = fopen(replacement->temporary, "wbe");
+  return replacement->stream != NULL ? VSC_OK : fail_to_write(file, errno, error);
 }
 
-static int sync_file(const char *file)
+vsc_status vsc_replace_end(vsc_replacement *replacement, bool durable, vsc_error *error)
 {
-  const int handle = open(file, O_RDONLY | O_CLOEXEC);
-  if (handle < 0) return -1;
-  const int result = fsync(handle);
-  const int reason = errno;
-  close(handle);
-  errno = reason;
-  return result;
+  FILE *stream = replacement->stream;
+  bool good = fflush(stream) == 0 && ferror(stream) == 0;
+  if (good && durable) good = fsync(fileno(stream)) == 0;
+  int reason = errno;
+  if (fclose(stream) != 0 && good) good = false, reason = errno;
+  if (good && rename(replacement->temporary, replacement->file) == 0) return VSC_OK;
+  if (good) reason = errno;
+  unlink(replacement->temporary);
+  return fail_to_write(replacement->file, reason, error);
 }
 
-vsc_status vsc_replace_end(const char *file, const char *temporary, bool durable, vsc_error *error)
+void vsc_replace_cancel(vsc_replacement *replacement)
 {
-  if ((!durable || sync_file(temporary) == 0) && rename(temporary, file) == 0) return VSC_OK;
-  const int reason = errno;
-  vsc_replace_cancel(temporary);
-  return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s: choose another folder", file,
-                  strerror(reason));
+  fclose(replacement->stream);
+  unlink(replacement->temporary);
 }
 
-void vsc_replace_cancel(const char *temporary)
+vsc_status vsc_replace_whole(const char *file, const void *bytes, size_t size, bool durable, vsc_error *error)
 {
-  unlink(temporary);
+  vsc_replacement replacement;
+  const vsc_status status = vsc_replace_begin(file, &replacement, error);
+  if (status != VSC_OK) return status;
+  fwrite(bytes, 1, size, replacement.stream);
+  return vsc_replace_end(&replacement, durable, error);
 }

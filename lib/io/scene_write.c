@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The scene as understood, and the template: both walk the rows.
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -54,22 +53,12 @@ static void write_group(FILE *stream, const vsc_group *group, const void *target
 
 vsc_status vsc_scene_write(const vsc_scene *scene, const char *file, vsc_error *error)
 {
-  char temporary[VSC_FILE_NAME];
-  const vsc_status status = vsc_replace_begin(file, temporary, error);
+  vsc_replacement replacement;
+  const vsc_status status = vsc_replace_begin(file, &replacement, error);
   if (status != VSC_OK) return status;
-  FILE *stream = fopen(temporary, "w");
-  bool good = stream != NULL;
-  if (good) {
-    fputs("# The scene as viscera understood it, with every default filled in.\n", stream);
-    write_group(stream, &vsc_scene_group, scene, 0, "");
-    good = !ferror(stream);
-    good = fclose(stream) == 0 && good;
-  }
-  if (good) return vsc_replace_end(file, temporary, false, error);
-  const int reason = errno;
-  vsc_replace_cancel(temporary);
-  return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s: free some space", file,
-                  strerror(reason));
+  fputs("# The scene as viscera understood it, with every default filled in.\n", replacement.stream);
+  write_group(replacement.stream, &vsc_scene_group, scene, 0, "");
+  return vsc_replace_end(&replacement, false, error);
 }
 
 // ---- template

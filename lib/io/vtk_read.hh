@@ -7,6 +7,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cstdint>
@@ -81,6 +82,15 @@ inline vsc_status fail_read(const char *file, const silence &quiet, vsc_error *e
 // must complain of just that number, or the array has swallowed some of it.
 constexpr char STRAY[] = "271828182845";
 
+// Whether the last lines are those behind an array that describe it, up to an empty line.
+inline bool ends_in_metadata(const std::string &text)
+{
+  const size_t begin = text.rfind("METADATA");
+  return begin != std::string::npos &&
+         std::all_of(text.begin() + (std::ptrdiff_t)begin, text.end(),
+                     [](unsigned char c) { return std::isprint(c) || std::isspace(c); });
+}
+
 inline std::string load_with_stray(const char *file)
 {
   std::ifstream stream(file, std::ios::binary);
@@ -89,7 +99,8 @@ inline std::string load_with_stray(const char *file)
   if (third_line != std::string::npos) third_line = text.find('\n', third_line + 1);
   const bool binary = third_line != std::string::npos &&
                       strncasecmp(text.c_str() + third_line + 1, "binary", 6) == 0;
-  return text + (binary ? "" : "\n") + STRAY + "\n";
+  const char *between = ends_in_metadata(text) ? "\n\n" : binary ? "" : "\n";
+  return text + between + STRAY + "\n";
 }
 
 template <typename Reader> bool breaks_off(const char *file, const silence &quiet)
@@ -137,6 +148,17 @@ vsc_status read_legacy(const char *file, int type, const char *wanted, const sil
   return VSC_OK;
 }
 
+// Whether the last element of an XML file is closed: VTK does not notice when the data appended before that are cut short.
+inline bool is_closed(const char *file)
+{
+  constexpr std::streamoff TAIL = 4096;
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  const std::streamoff size = stream.tellg();
+  stream.seekg(std::max<std::streamoff>(size - TAIL, 0));
+  const std::string tail((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  return tail.find("</VTKFile>") != std::string::npos;
+}
+
 // Reads an XML file whose VTKFile element has the type `type`.
 template <typename Reader>
 vsc_status read_xml(const char *file, const char *type, const char *wanted, const silence &quiet,
@@ -151,6 +173,7 @@ vsc_status read_xml(const char *file, const char *type, const char *wanted, cons
                     file);
   if (std::strcmp(tester->GetFileDataType(), type) != 0)
     return fail_kind(file, tester->GetFileDataType(), wanted, error);
+  if (!is_closed(file)) return fail_read(file, quiet, error);
   vtkNew<Reader> reader;
   reader->SetFileName(file);
   reader->Update();

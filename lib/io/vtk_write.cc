@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <string>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -90,32 +91,22 @@ protected:
   }
 };
 
-// Runs a VTK writer on a temporary file that replaces `file` when all is written.
+// Runs a VTK writer, to memory: on a file that cannot be written in full it goes astray.
 template <typename Writer>
 vsc_status write_file(const char *file, vtkDataObject *object, vsc_error *error)
 {
-  char temporary[VSC_FILE_NAME];
-  const vsc_status status = vsc_replace_begin(file, temporary, error);
-  if (status != VSC_OK) return status;
   silence quiet;
-  bool written = false;
-  try {
-    vtkNew<plain<Writer>> writer;
-    writer->SetFileName(temporary);
-    writer->SetInputDataObject(object);
-    // Debian 12's ParaView, with its newest expat, cannot read appended data of any encoding.
-    writer->SetDataModeToBinary();
-    writer->SetHeaderTypeToUInt64();
-    writer->SetCompressor(vtkNew<vsc::deflate>());
-    written = writer->Write() == 1 && writer->GetErrorCode() == 0 && !quiet.failed();
-  } catch (...) {
-    vsc_replace_cancel(temporary);
-    throw;
-  }
-  if (written) return vsc_replace_end(file, temporary, false, error);
-  vsc_replace_cancel(temporary);
-  return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written (VTK: %s): is the disk full?", file,
-                  quiet.said().c_str());
+  vtkNew<plain<Writer>> writer;
+  writer->WriteToOutputStringOn();
+  writer->SetInputDataObject(object);
+  // Debian 12's ParaView, with its newest expat, cannot read appended data of any encoding.
+  writer->SetDataModeToBinary();
+  writer->SetHeaderTypeToUInt64();
+  writer->SetCompressor(vtkNew<vsc::deflate>());
+  if (writer->Write() != 1 || writer->GetErrorCode() != 0 || quiet.failed())
+    return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written (VTK: %s)", file, quiet.said().c_str());
+  const std::string text = writer->GetOutputString();
+  return vsc_replace_whole(file, text.data(), text.size(), false, error);
 }
 
 vtkSmartPointer<vtkDataArray> place_array(const vsc_mesh *mesh, const vsc_vtk_array *from,

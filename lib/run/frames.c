@@ -130,7 +130,7 @@ vsc_status vsc_job_write_frame(vsc_job *job, vsc_error *error)
   if (frame->shown.element_count > 0) frame->shown.triangle_count = 0;
   frame->time = 1e-3 * job->state->time;
   frame->double_precision = job->problem->scene->output.double_precision;
-  snprintf(frame->name, sizeof frame->name, "frames/%s_%05zu.vtu", job->name, job->frames);
+  snprintf(frame->name, sizeof frame->name, VSC_FRAME_NAME, job->name, job->frames);
   vsc_job_path(job, frame->name, frame->file);
   const vsc_status status = read_fields(job, job->frames == 0, frame, error);
   if (status != VSC_OK) {

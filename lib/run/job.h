@@ -13,6 +13,9 @@
 // Bytes of the name of a run's folder; a slash and a file's name come behind it.
 enum { VSC_LONGEST_DIRECTORY = VSC_PATH - VSC_NAME - 112 };
 
+// A frame's file in that folder: the scene's name, the frame's number (size_t).
+#define VSC_FRAME_NAME "frames/%s_%05zu.vtu"
+
 typedef struct vsc_job {
   vsc_problem *problem;
   const vsc_run_options *options;

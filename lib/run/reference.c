@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is left of the search for the shape at rest: prestress.csv and reference.vtu.
-#include <errno.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -10,27 +9,24 @@
 #include "run/job.h"
 #include "run/prestress.h"
 
-static bool write_rows(const vsc_unloaded *unloaded, FILE *file)
+static void write_rows(const vsc_unloaded *unloaded, FILE *file)
 {
   fputs("iteration,relaxation [1],largest [mm],mean [mm]\n", file);
   for (size_t k = 0; k < unloaded->row_count; k++) {
     const vsc_prestress_row *row = &unloaded->rows[k];
     fprintf(file, "%d,%.6g,%.6e,%.6e\n", row->iteration, row->relaxation, row->largest, row->mean);
   }
-  return fclose(file) == 0;
 }
 
 static vsc_status write_table(const vsc_job *job, vsc_error *error)
 {
-  char path[VSC_PATH], temporary[VSC_FILE_NAME];
+  char path[VSC_PATH];
+  vsc_replacement table;
   vsc_job_path(job, "prestress.csv", path);
-  const vsc_status status = vsc_replace_begin(path, temporary, error);
+  const vsc_status status = vsc_replace_begin(path, &table, error);
   if (status != VSC_OK) return status;
-  FILE *file = fopen(temporary, "w");
-  if (file != NULL && write_rows(job->problem->unloaded, file)) return vsc_replace_end(path, temporary, false, error);
-  const int reason = errno;
-  vsc_replace_cancel(temporary);
-  return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", path, strerror(reason));
+  write_rows(job->problem->unloaded, table.stream);
+  return vsc_replace_end(&table, false, error);
 }
 
 // Nodes at rest, and from there to the mesh's.

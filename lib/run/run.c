@@ -66,16 +66,30 @@ static void remove_frames(const vsc_job *job, const vsc_pvd *old, size_t first)
   }
 }
 
+// The frames of a run that is resumed must be in its series, or they would be overwritten.
+static vsc_status check_series(const vsc_job *job, const char *series, vsc_error *error)
+{
+  char first[VSC_PATH], name[VSC_NAME + 32];
+  snprintf(name, sizeof name, VSC_FRAME_NAME, job->name, (size_t)0);
+  vsc_job_path(job, name, first);
+  if (!job->options->resume || access(series, F_OK) == 0 || access(first, F_OK) != 0) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT,
+                  "%s: is missing, and %s would be overwritten: put it back, or move the frames to another folder",
+                  series, first);
+}
+
 // The series with the frames up to the checkpoint's time, or none; the others' files are removed.
 static vsc_status open_series(vsc_job *job, vsc_error *error)
 {
   char series[VSC_PATH];
   vsc_pvd *old = NULL;
   vsc_job_path(job, ".pvd", series);
+  vsc_status status = check_series(job, series, error);
+  if (status != VSC_OK) return status;
   if (vsc_pvd_open(series, HUGE_VAL, &old, NULL) != VSC_OK) old = NULL;
   // a frame at the checkpoint's own time stays
   const double keep = job->options->resume ? 1e-3 * job->state->time + 1e-6 : -1;
-  vsc_status status = vsc_pvd_open(series, keep, &job->pvd, error);
+  status = vsc_pvd_open(series, keep, &job->pvd, error);
   if (status == VSC_OK) status = vsc_pvd_write(job->pvd, error);
   if (status == VSC_OK && old != NULL) remove_frames(job, old, vsc_pvd_count(job->pvd));
   vsc_pvd_free(old);
@@ -120,11 +134,11 @@ static vsc_status resume(vsc_job *job, vsc_error *error)
   if (status == VSC_OK) status = vsc_job_load(job, error);
   if (status == VSC_OK) vsc_watch_resume(job->problem, job->state, job->watch);
   if (status == VSC_OK) status = vsc_watch_continues(job->watch, path, error);
-  if (status == VSC_OK) status = open_files(job, error);
   if (status != VSC_OK) return status;
   vsc_watch_free(job->watch);
   job->watch = NULL;
   status = open_watch(job, job->state->time, error);
+  if (status == VSC_OK) status = open_files(job, error);
   if (status == VSC_OK) status = vsc_job_load(job, error);
   if (status == VSC_OK) vsc_watch_resume(job->problem, job->state, job->watch);
   return status;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <errno.h>
 #include <math.h>
 #include <string.h>
 #include <stdio.h>
 
 #include "base/parallel.h"
+#include "io/replace.h"
 #include "mech/kernel.h"
 #include "run/job.h"
 #include "run/prestress.h"
@@ -140,16 +140,13 @@ static void write_body(const vsc_job *job, const vsc_run_result *result, const c
 vsc_status vsc_job_summarize(const vsc_job *job, const vsc_run_result *result, const char *failure,
                              vsc_error *error)
 {
-  char path[VSC_PATH], temporary[VSC_PATH + 8];
+  char path[VSC_PATH];
+  vsc_replacement summary;
   vsc_job_path(job, "summary.json", path);
-  snprintf(temporary, sizeof temporary, "%s.tmp", path);
-  FILE *file = fopen(temporary, "w");
-  if (file == NULL)
-    return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", path, strerror(errno));
-  fputs("{\n", file);
-  write_body(job, result, failure, file);
-  fputs("}\n", file);
-  if (fclose(file) != 0 || rename(temporary, path) != 0)
-    return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", path, strerror(errno));
-  return VSC_OK;
+  const vsc_status status = vsc_replace_begin(path, &summary, error);
+  if (status != VSC_OK) return status;
+  fputs("{\n", summary.stream);
+  write_body(job, result, failure, summary.stream);
+  fputs("}\n", summary.stream);
+  return vsc_replace_end(&summary, false, error);
 }

@@ -223,32 +223,9 @@ static vsc_status number_points(const vsc_problem *problem, vsc_watch *watch, vs
   return made ? VSC_OK : vsc_fail_memory(error, "observed points");
 }
 
-// Copies the header and the rows up to `keep_until` (ms) to a new file that takes the old one's
-// place.
-static vsc_status trim_rows(const char *file, double keep_until, vsc_error *error)
+static vsc_status open_file(const char *file, double keep_until, double interval, vsc_watch *watch, vsc_error *error)
 {
-  char temporary[VSC_PATH + 8], *line = NULL;
-  size_t room = 0;
-  snprintf(temporary, sizeof temporary, "%s.tmp", file);
-  FILE *from = fopen(file, "r");
-  if (from == NULL) return VSC_OK;
-  FILE *to = fopen(temporary, "w");
-  if (to == NULL) {
-    fclose(from);
-    return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", temporary, strerror(errno));
-  }
-  for (size_t row = 0; getline(&line, &room, from) > 0; row++)
-    if (row == 0 || 1e3 * strtod(line, NULL) <= keep_until + 1e-6) fputs(line, to);
-  free(line);
-  fclose(from);
-  if (fclose(to) != 0 || rename(temporary, file) != 0)
-    return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", file, strerror(errno));
-  return VSC_OK;
-}
-
-static vsc_status open_file(const char *file, double keep_until, vsc_watch *watch, vsc_error *error)
-{
-  const vsc_status status = keep_until >= 0 ? trim_rows(file, keep_until, error) : VSC_OK;
+  const vsc_status status = keep_until >= 0 ? vsc_watch_trim(file, keep_until, interval, error) : VSC_OK;
   if (status != VSC_OK) return status;
   watch->file = fopen(file, keep_until >= 0 ? "a" : "w");
   if (watch->file == NULL)
@@ -287,7 +264,7 @@ vsc_status vsc_watch_open(const vsc_problem *problem, const char *file, double k
   vsc_status status = vsc_ledger_create(problem->model, &made->ledger, error);
   if (status == VSC_OK) status = make_cavities(problem, made, error);
   if (status == VSC_OK) status = number_points(problem, made, error);
-  if (status == VSC_OK) status = open_file(file, keep_until, made, error);
+  if (status == VSC_OK) status = open_file(file, keep_until, problem->scene->output.signal_interval, made, error);
   if (status != VSC_OK) {
     vsc_watch_free(made);
     return status;
@@ -433,45 +410,6 @@ double vsc_watch_energy_made(const vsc_watch *watch)
 {
   if (watch->rows == 0) return 0;
   return fmax(watch->high[watch->balance_column], 0) / (MJ * watch->energy_scale);
-}
-
-// Compares the columns of `header`, which is cut into them.
-static vsc_status compare_columns(const vsc_watch *watch, char *header, const char *file, vsc_error *error)
-{
-  const char *more = NULL, *lacks = NULL;
-  bool seen[VSC_SIGNALS] = {false}, same = true;
-  size_t count = 0;
-  char *rest;
-  for (char *column = strtok_r(header, ",\n", &rest); column != NULL; column = strtok_r(NULL, ",\n", &rest)) {
-    size_t k = 0;
-    while (k < watch->signal_count && strcmp(watch->names[k], column) != 0) k++;
-    same = same && k == count++;
-    if (k < watch->signal_count)
-      seen[k] = true;
-    else if (more == NULL)
-      more = column;
-  }
-  for (size_t k = watch->signal_count; k-- > 0;)
-    if (!seen[k]) lacks = watch->names[k];
-  if (same && lacks == NULL) return VSC_OK;
-  return vsc_fail(error, VSC_INPUT,
-                  "%s: its columns are not those of this scene: %s%s%s%s%s%s; resume with the outputs that the run was "
-                  "begun with (output.cavities, output.points), or begin anew in another folder with -o",
-                  file, lacks ? "it lacks " : "", lacks ? lacks : "", lacks && more ? ", " : "",
-                  more ? "it has " : lacks ? "" : "another order", more ? more : "", more ? " besides" : "");
-}
-
-vsc_status vsc_watch_continues(const vsc_watch *watch, const char *file, vsc_error *error)
-{
-  char *header = NULL;
-  size_t room = 0;
-  FILE *stream = fopen(file, "r");
-  if (stream == NULL) return VSC_OK;
-  const bool any = getline(&header, &room, stream) > 0;
-  fclose(stream);
-  const vsc_status status = any ? compare_columns(watch, header, file, error) : VSC_OK;
-  free(header);
-  return status;
 }
 
 void vsc_watch_free(vsc_watch *watch)

@@ -34,7 +34,7 @@ typedef struct vsc_watch {
   double energy_scale;  // largest energy or work seen, uJ
 } vsc_watch;
 
-// Opens `file`, in which rows up to `keep_until` (ms; below 0: none) stay. The caller owns *watch.
+// Opens `file`, in which rows up to `keep_until` (ms; below 0: none) stay (vsc_watch_trim). The caller owns *watch.
 vsc_status vsc_watch_open(const vsc_problem *problem, const char *file, double keep_until,
                           vsc_watch **watch, vsc_error *error);
 
@@ -56,9 +56,10 @@ void vsc_watch_resume(const vsc_problem *problem, vsc_state *state, vsc_watch *w
 // none had. Of all rows, those before a checkpoint too.
 double vsc_watch_energy_made(const vsc_watch *watch);
 
-// Whether the rows of `file`, left by the run that is resumed, have the columns that vsc_watch_resume has named; a file
-// that is missing or empty has none yet. VSC_INPUT with the columns that differ.
-vsc_status vsc_watch_continues(const vsc_watch *watch, const char *file, vsc_error *error);
+// Takes from the rows of `file`, left by the run that is resumed, those after `keep_until` (ms) and those that were cut
+// short; a file that is missing has none. VSC_INPUT when rows before `keep_until` are lost: when they end earlier by more
+// than they lie apart and than `interval` (ms).
+vsc_status vsc_watch_trim(const char *file, double keep_until, double interval, vsc_error *error);
 
 // Whether the rows of `file`, left by the run that is resumed, have the columns that vsc_watch_resume has named; a file
 // that is missing or empty has none yet. VSC_INPUT with a column that only one of the two has.
