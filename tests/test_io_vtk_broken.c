@@ -279,6 +279,50 @@ static void truncated_ascii_xml(void **state)
   free(whole);
 }
 
+// Numbers of an array behind the underscore of AppendedData: their size in bytes before them.
+static void append_numbers(FILE *file, const void *numbers, uint32_t size)
+{
+  fwrite(&size, sizeof size, 1, file);
+  fwrite(numbers, size, 1, file);
+}
+
+// Raw data behind the grid, as other writers than ours leave them, are not missed by VTK.
+static void truncated_appended_xml(void **state)
+{
+  (void)state;
+  static const double points[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, values[4] = {1, 2, 3, 4};
+  static const int32_t corners[4] = {0, 1, 2, 3}, end = 4;
+  static const uint8_t type = 10;
+  const char *path = scratch("appended.vtu");
+  FILE *file = fopen(path, "wb");
+  fputs("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+        "<UnstructuredGrid><Piece NumberOfPoints=\"4\" NumberOfCells=\"1\">\n"
+        "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/></Points>\n"
+        "<Cells><DataArray type=\"Int32\" Name=\"connectivity\" format=\"appended\" offset=\"100\"/>\n"
+        "<DataArray type=\"Int32\" Name=\"offsets\" format=\"appended\" offset=\"120\"/>\n"
+        "<DataArray type=\"UInt8\" Name=\"types\" format=\"appended\" offset=\"128\"/></Cells>\n"
+        "<PointData><DataArray type=\"Float64\" Name=\"heat\" format=\"appended\" offset=\"133\"/></PointData>\n"
+        "</Piece></UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_", file);
+  append_numbers(file, points, sizeof points);
+  append_numbers(file, corners, sizeof corners);
+  append_numbers(file, &end, sizeof end);
+  append_numbers(file, &type, sizeof type);
+  append_numbers(file, values, sizeof values);
+  const long data = ftell(file);
+  fputs("\n</AppendedData>\n</VTKFile>\n", file);
+  fclose(file);
+  vsc_mesh *mesh;
+  vsc_error error;
+  if (vsc_vtk_read_mesh(path, 1, &mesh, &error) != VSC_OK) fail_msg("%s", error.text);
+  assert_true(vsc_arrays_find(&mesh->node_data, "heat")->values[3] == 4);
+  vsc_mesh_free(mesh);
+  size_t bytes;
+  char *whole = scratch_load(path, &bytes);
+  for (size_t cut = (size_t)data - 120; cut <= (size_t)data; cut += 8)
+    assert_no_mesh(scratch_bytes("cut.vtu", whole, cut), "cut short");
+  free(whole);
+}
+
 static void truncated_images(void **state)
 {
   (void)state;
@@ -422,6 +466,7 @@ int main(void)
     cmocka_unit_test(truncated_xml),
     cmocka_unit_test(damaged_arrays),
     cmocka_unit_test(truncated_ascii_xml),
+    cmocka_unit_test(truncated_appended_xml),
     cmocka_unit_test(truncated_images),
     cmocka_unit_test(truncated_legacy),
     cmocka_unit_test(truncated_legacy_arrays),

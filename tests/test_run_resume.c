@@ -245,6 +245,37 @@ static void test_lost_files(void **state)
   assert_holds(rows, "time [s],step [ms]");
 }
 
+// Rows that a machine has lost when it stopped are missed, one half written is taken away; frames without their
+// series are not overwritten.
+static void test_lost_rows(void **state)
+{
+  (void)state;
+  must("cp -r early torn && head -n 8 early/signals.csv > torn/signals.csv");  // to 6 of 10 ms
+  assert_int_equal(shell("$V run block.yaml -q -o torn --set 'output.checkpoint=5 ms' --resume"), 2);
+  assert_holds(complained, "torn/signals.csv: its rows end at 6 ms, but the checkpoint is of 10 ms");
+  must("head -c -40 early/signals.csv > torn/signals.csv");
+  assert_int_equal(shell("$V run block.yaml -q -o torn --set 'output.checkpoint=5 ms' --resume"), 0);
+  must("awk -F, 'NF != n && NR > 1 {exit 1} {n = NF}' torn/signals.csv");
+  must("cp -r early bare && rm bare/block.pvd && ls bare/frames > before");
+  assert_int_equal(shell("$V run block.yaml -q -o bare --resume"), 2);
+  assert_holds(complained, "bare/block.pvd: is missing");
+  must("ls bare/frames | diff before -");
+}
+
+// A disk that is full: told in one line, nothing half written is left.
+static void test_full_disk(void **state)
+{
+  (void)state;
+  must("$V run block.yaml -q -o full");
+  for (int blocks = 4; blocks <= 16; blocks += 4) {
+    char command[128];
+    snprintf(command, sizeof command, "trap '' XFSZ && ulimit -f %d && $V run block.yaml -q -o full", blocks);
+    assert_int_equal(shell(command), 4);
+    assert_holds(complained, "cannot be written: File too large");
+    assert_int_equal(shell("ls full/*.tmp full/frames/*.tmp"), 2);
+  }
+}
+
 // Another modulus, support, load, fibre or step is another model.
 static void test_changed_scene_is_refused(void **state)
 {
@@ -344,6 +375,7 @@ static void test_no_checkpoint(void **state)
 {
   (void)state;
   assert_int_equal(shell("$V run block.yaml -o nothing --resume"), 2);
+  assert_holds(complained, "checkpoint.h5: is not there");
   assert_int_equal(line_count(complained), 1);
   assert_int_equal(shell("ls nothing"), 2);  // and no folder is made
   must("cp -r early damaged && truncate -s 3000 damaged/checkpoint.h5");
@@ -416,6 +448,8 @@ int main(void)
       cmocka_unit_test(test_older_checkpoint),
       cmocka_unit_test(test_trimmed_at_once),
       cmocka_unit_test(test_lost_files),
+      cmocka_unit_test(test_lost_rows),
+      cmocka_unit_test(test_full_disk),
       cmocka_unit_test(test_changed_scene_is_refused),
       cmocka_unit_test(test_other_outputs_are_no_other_model),
       cmocka_unit_test(test_resumed_by_its_own_scene),

@@ -107,11 +107,37 @@ static void test_cycles_of_rest(void **state)
   assert_true(strtod(summary("late", "cycle_difference"), NULL) > 0.5);
 }
 
+// Told to stop, a run stops at its next look, with a checkpoint from which it goes on as if nothing had been.
+static void test_interrupted(void **state)
+{
+  (void)state;
+  static const char script[] =
+      "$V run block.yaml -q -o told --set 'time.end=1000 s' --set output.frames='1 s' &\n"
+      "until [ \"$(wc -l < told/signals.csv)\" -gt 3 ]; do sleep 0.01; done 2>/dev/null\n"
+      "kill -TERM $!\n"
+      "wait $!\n"
+      "[ $? = 143 ]\n";
+  char line[256];
+  must(script);
+  assert_holds(complained, "stopping at the next look");
+  assert_holds(complained, "with --resume goes on from there");
+  assert_string_equal(summary("told", "outcome"), "stopped");
+  const double time = strtod(summary("told", "time_s"), NULL);
+  assert_true(time > 0);
+  snprintf(line, sizeof line, "$V run block.yaml -q -o told --set 'time.end=1000 s' --resume --stop '%.17g s'", time + 0.002);
+  must(line);
+  snprintf(line, sizeof line, "$V run block.yaml -q -o untold --set 'time.end=1000 s' --stop '%.17g s'", time + 0.002);
+  must(line);
+  assert_string_equal(summary("told", "time_s"), summary("untold", "time_s"));
+  assert_string_equal(summary("told", "state_hash"), summary("untold", "state_hash"));
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_repeated_with_shorter_steps),
       cmocka_unit_test(test_energy_made_by_implicit_steps),
+      cmocka_unit_test(test_interrupted),
       cmocka_unit_test(test_cycles),
       cmocka_unit_test(test_cycles_of_rest),
   };

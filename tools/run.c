@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // viscera run
 #include <getopt.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,8 +25,10 @@ static const char help[] =
     "      --stop TIME      stop at TIME (as '0.4 s') and leave a checkpoint\n"
     "  -q, --quiet          no progress, no warnings\n"
     "  -h, --help           this text\n\n"
+    "Ctrl-C (and the signals TERM and HUP) stop at the next look at the energy and leave a checkpoint; a\n"
+    "second time they end the program at once.\n\n"
     "Exit codes: 0 good, 2 the user's input, 3 numerical failure (the last good state is kept), 4 "
-    "system.\n\n"
+    "system,\n128 and the number of the signal that stopped it.\n\n"
     "Examples:\n"
     "  viscera run data/beat.yaml -o beat\n"
     "  viscera run data/beat.yaml -o half --set 'time.end=0.4 s' --threads 1\n"
@@ -143,6 +146,37 @@ static void report(const vsc_run_result *result)
            result->cycle_difference);
 }
 
+static volatile sig_atomic_t interrupted = 0;
+
+static void interrupt(int number)
+{
+  static const char told[] = "\nviscera: stopping at the next look; once more to end at once\n";
+  interrupted = number;
+  (void)!write(STDERR_FILENO, told, sizeof told - 1);
+}
+
+// A signal that comes once stops the run with a checkpoint, and then does again what it did before.
+static void heed_signals(vsc_run_options *options)
+{
+  static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+  const struct sigaction once = {.sa_handler = interrupt, .sa_flags = SA_RESETHAND | SA_RESTART};
+  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+    struct sigaction usual;
+    const bool ignored = sigaction(numbers[k], NULL, &usual) == 0 && usual.sa_handler == SIG_IGN;
+    if (!ignored) sigaction(numbers[k], &once, NULL);  // not under nohup
+  }
+  options->interrupted = &interrupted;
+}
+
+// `code`, or that of the signal which stopped the run.
+static int code_of(int code, const vsc_run_result *result)
+{
+  if (code != 0 || !result->interrupted) return code;
+  fprintf(stderr, "viscera: stopped after %.6g ms; the same command with --resume goes on from there\n",
+          result->simulated);
+  return 128 + interrupted;
+}
+
 int vsc_verb_run(int argc, char **argv)
 {
   run_arguments arguments = {0};
@@ -161,6 +195,7 @@ int vsc_verb_run(int argc, char **argv)
   double begin[2] = {0, -1};
   if (!arguments.quiet && isatty(STDERR_FILENO)) arguments.run.progress = show_progress;
   arguments.run.progress_context = begin;
+  heed_signals(&arguments.run);
   vsc_run_result result;
   vsc_error error;
   code = (int)vsc_run(problem, &arguments.run, &result, &error);
@@ -171,5 +206,5 @@ int vsc_verb_run(int argc, char **argv)
   else
     report(&result), report_unloaded(problem->unloaded);
   vsc_problem_free(problem);
-  return code;
+  return code_of(code, &result);
 }

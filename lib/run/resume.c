@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <string.h>
+#include <unistd.h>
 
 #include "base/mem.h"
 #include "io/checkpoint.h"
@@ -149,6 +150,10 @@ vsc_status vsc_job_load(vsc_job *job, vsc_error *error)
   char path[VSC_PATH];
   list_blocks(job, scalars, blocks);
   vsc_job_path(job, "checkpoint.h5", path);
+  if (access(path, F_OK) != 0)
+    return vsc_fail(error, VSC_INPUT,
+                    "%s: is not there: a run leaves it when it ends or is stopped, and on its way with output.checkpoint; "
+                    "begin anew without --resume", path);
   const vsc_status status =
       vsc_checkpoint_read(path, job->problem->model->hash, BLOCKS, blocks, error);
   if (status == VSC_OK) put_scalars(job, scalars);

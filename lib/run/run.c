@@ -328,6 +328,11 @@ static double look_of(const vsc_model *model, const vsc_state *state, double row
   return rows / fmax(fmax(round(rows / usual), ceil(rows / longest_look(model))), 1);
 }
 
+static bool is_interrupted(const vsc_job *job)
+{
+  return job->options->interrupted != NULL && *job->options->interrupted != 0;
+}
+
 // Goes on to the first look at or after `stop`: looks, and with them the steps, are where they
 // would be without a stop.
 static vsc_status advance(vsc_job *job, double stop, vsc_error *error)
@@ -338,7 +343,7 @@ static vsc_status advance(vsc_job *job, double stop, vsc_error *error)
   vsc_status status = VSC_OK;
   // the ledger wants its looks, however rare the rows are
   const double look = look_of(job->problem->model, state, output->signal_interval);
-  while (state->time < stop * (1 - SAME_TIME) && status == VSC_OK && !repeats(job)) {
+  while (state->time < stop * (1 - SAME_TIME) && status == VSC_OK && !repeats(job) && !is_interrupted(job)) {
     const double before = state->time;
     double next = next_event(before, look, end);
     next = fmin(next, next_event(state->time, output->frame_interval, end));
@@ -432,6 +437,7 @@ vsc_status vsc_run(vsc_problem *problem, const vsc_run_options *options, vsc_run
     const double end = problem->model->end_time;
     const double stop = options->stop_time > 0 ? fmin(options->stop_time, end) : end;
     status = advance(&job, stop, error);
+    result->interrupted = is_interrupted(&job) && !repeats(&job) && job.state->time < stop * (1 - SAME_TIME);
   }
   if (status == VSC_OK) status = save(&job, error);
   if (status == VSC_OK) {

@@ -4,6 +4,7 @@
 #ifndef VSC_RUN_RUN_H
 #define VSC_RUN_RUN_H
 
+#include <signal.h>
 #include <stdbool.h>
 
 #include "run/problem.h"
@@ -16,6 +17,7 @@ typedef struct vsc_run_options {
   bool resume;            // go on from the directory's checkpoint
   double stop_time;  // ms; > 0: stop there (at the next row of signals or, if sooner, whole ms),
                      // leaving a checkpoint, as if interrupted
+  const volatile sig_atomic_t *interrupted;  // not 0: stop there too, as soon as one is reached; may be NULL
   vsc_progress *progress;  // may be NULL
   void *progress_context;
 } vsc_run_options;
@@ -33,6 +35,7 @@ typedef struct vsc_run_result {
   double most_inverted;       // most elements that were inside out at the same time, of all calls
   double cycles;              // that were watched so far (time.cycle)
   double cycle_difference;    // of the last from the one before (run/cycle.h)
+  bool interrupted;           // the run stopped before its time
   bool repeats;               // the run stopped because it was below time.cycle_tolerance
   char series[VSC_PATH];      // the PVD file
   char warning[VSC_ERROR_TEXT];  // what is suspicious of it, in one line; empty: nothing
