@@ -140,20 +140,20 @@ static inline void oracle_scatter(const oracle_tet *tet, const double P[9], doub
   }
 }
 
-// p_n = U'(J_n) of each node's group.
+// p_n = U'(J_n) of each node's group, whose compliance 1/K is the mean of its tets'.
 static inline double *oracle_node_pressures(const random_body *body, const double *x)
 {
   const size_t nodes = body->mesh->node_count;
-  double *p = numbers(4 * nodes), *rest = p + nodes, *now = rest + nodes, *modulus = now + nodes;
+  double *p = numbers(4 * nodes), *rest = p + nodes, *now = rest + nodes, *compliance = now + nodes;
   for (size_t t = 0; t < body->mesh->element_count; t++) {
     const oracle_tet tet = oracle_read(body, t, x, NULL, 0);
     for (int c = 0; c < 4; c++) {
       rest[tet.node[c]] += tet.V / 4;
       now[tet.node[c]] += tet.V / 4 * tet.J;
-      modulus[tet.node[c]] += tet.V / 4 * tet.material->volume_modulus;
+      compliance[tet.node[c]] += tet.V / 4 / tet.material->volume_modulus;
     }
   }
-  for (size_t n = 0; n < nodes; n++) p[n] = oracle_pressure(modulus[n] / rest[n], now[n] / rest[n]);
+  for (size_t n = 0; n < nodes; n++) p[n] = oracle_pressure(rest[n] / compliance[n], now[n] / rest[n]);
   return p;
 }
 

@@ -371,9 +371,9 @@ static void the_bound_by_hand(void **state)
   // muscle: E = 9, 6, 4, G = 3, 2, 5: A = max(9, 10), K = 50, Ks = 4;
   // scar: E = 19, 16, 14, G = 5, 4, 7: A = 19, K = 150, Ks = 5
   assert_close(bound_of_two(materials, VSC_VOLUME_ELEMENT), expected_bound(60, 169), 1e-13, 0);
-  // nodes: (50 + 150)/2 for the shared three, own for the fourth: (300 + 50)/4, (300 + 150)/4
+  // nodes: 2/(1/50 + 1/150) = 75 for the shared three, own for the fourth: (225 + 50)/4, (225 + 150)/4
   assert_close(bound_of_two(materials, VSC_VOLUME_NODAL),
-               expected_bound(10 + 87.5 + 4, 19 + 112.5 + 5), 1e-13, 0);
+               expected_bound(10 + 68.75 + 4, 19 + 93.75 + 5), 1e-13, 0);
   define_materials(materials, VSC_ACTIVE_TENSION);
   materials[0].active.amplitude_array[0] = materials[0].active.delay_array[0] = '\0';
   // a tension of 25 stands on everything

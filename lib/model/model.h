@@ -283,7 +283,7 @@ typedef struct vsc_model {
   // volume groups of the nodes, when terms.nodal_volume
   double *group_volume;   // node_count: a quarter of the tets' rest volume round the node, mm^3; 1
                           // where there are none, with modulus 0
-  double *group_modulus;  // node_count: their volume-weighted K, kPa
+  double *group_modulus;  // node_count: 1/K is the volume-weighted mean of theirs, kPa
 
   vsc_terms terms;
   size_t material_count;

@@ -114,12 +114,13 @@ vsc_status vsc_terms_volume_groups(vsc_model *model, vsc_error *error)
                                      ? vsc_pack_mixture(model, patch, k)->volume_modulus[l]
                                      : model->materials[patch->material].volume_modulus;
           model->group_volume[node] += share;
-          model->group_modulus[node] += modulus * share;
+          model->group_modulus[node] += modulus > 0 ? share / modulus : INFINITY;
         }
   }
+  // Tissues that meet have one pressure and give way each by its own modulus: 1/K = sum(V_t/K_t)/sum V_t
   for (size_t n = 0; n < model->node_count; n++)
     if (model->group_volume[n] > 0)
-      model->group_modulus[n] /= model->group_volume[n];
+      model->group_modulus[n] = model->group_volume[n] / model->group_modulus[n];
     else
       model->group_volume[n] = 1;
   return VSC_OK;
