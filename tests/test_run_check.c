@@ -156,6 +156,7 @@ static void test_warnings_about_materials(void **state)
   // element-wise volume with a low modulus does not lock
   must("$V check block.yaml --set volume=element --set 'materials[0].volume_modulus=150 kPa'");
   assert_int_equal(warnings(), 0);
+  assert_warns("--set volume=element", "stabilization does nothing with volume: element");
 }
 
 static void test_warnings_about_the_setting(void **state)

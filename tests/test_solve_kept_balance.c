@@ -241,6 +241,36 @@ static void threads_and_stops_do_not_change_the_bits(void **state)
 }
 
 // Many volumes, and relaxation, which keeps none.
+// Each multiplier pushes the elements of its volume apart, those of nodes a part of each.
+static void stress_includes_what_keeps_volumes(void **state)
+{
+  (void)state;
+  for (size_t kind = 0; kind < 3; kind++) {
+    small_body body;
+    vsc_material_def tissues[2];
+    open_soft(&body, kinds[kind], tissues);
+    body_hold(&body, "x0", 1, 1, 1);
+    body_build(&body);
+    const size_t elements = body.mesh->element_count;
+    double *without = vsc_alloc(6 * elements, sizeof *without), *with = vsc_alloc(6 * elements, sizeof *with);
+    uint64_t seed = 9;
+    for (size_t n = 0; n < 4 * body.model->node_count; n++)
+      if (n % 4 < 3) body.state->x[n] += 0.05 * any_number(&seed);
+    vsc_read_field(body.model, body.state, VSC_FIELD_STRESS, without);
+    for (size_t k = 0; k < body.model->kept.count; k++) body.state->kept_pressure[k] = 10 * any_number(&seed);
+    vsc_read_field(body.model, body.state, VSC_FIELD_STRESS, with);
+    for (size_t e = 0; e < elements; e++) {
+      double pressure = 0;
+      for (size_t k = 0; k < body.model->kept.count; k++) pressure += share_of(&body, k, e) * body.state->kept_pressure[k];
+      for (size_t i = 0; i < 6; i++)
+        assert_close(with[6 * e + i] - without[6 * e + i], i < 3 ? -pressure : 0, 0, 1e-12);  // of some 10 kPa
+    }
+    vsc_free(without);
+    vsc_free(with);
+    body_close(&body);
+  }
+}
+
 static void what_newton_cannot_keep_is_refused(void **state)
 {
   (void)state;
@@ -265,6 +295,7 @@ int main(void)
       cmocka_unit_test(implicit_steps_are_of_second_order),
       cmocka_unit_test(pressures_do_not_swing_from_step_to_step),
       cmocka_unit_test(threads_and_stops_do_not_change_the_bits),
+      cmocka_unit_test(stress_includes_what_keeps_volumes),
       cmocka_unit_test(what_newton_cannot_keep_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -79,8 +79,8 @@ typedef enum vsc_field {
   VSC_FIELD_VOLUME_RATIO,    // elements x 1: J
   // Strains and stresses, of which an element has the mean of its frames. Strain is Green-Lagrange's,
   // by rest volume: E = (F^T F - 1)/2. Stress is Cauchy's, kPa, by deformed volume (0 where that is
-  // not above 0), of all that acts in the tissue at the state's time, activity and damping included,
-  // multipliers of keep_volume not:
+  // not above 0), of all that acts in the tissue at the state's time, activity, damping and the multipliers that keep
+  // volumes (those of the last step's balance; of single elements none) included:
   //   sigma = 1/J sum_ab S_ab g_a (x) g_b + p 1,  p = U'(J) of the frame and of its volume group, and
   // -m/J of laws of the full deformation (model/law_volume.h).
   // In fibre axes components are ff ss nn fs sn nf, of strain in the axes at rest, of stress in the

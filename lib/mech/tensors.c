@@ -133,6 +133,35 @@ static vsc_wide shared_pressure(const vsc_patch_work *work, const vsc_model *mod
                                                        vsc_select(full, rest, vsc_splat(1)));
 }
 
+// The multiplier that keeps the volume of number `source`; 0 where that cannot change.
+static double kept_at(const vsc_kept_volumes *kept, const double *pressure, uint32_t source)
+{
+  size_t low = 0, high = kept->count;
+  while (low < high) {
+    const size_t middle = (low + high) / 2;
+    if (kept->source[middle] < source) low = middle + 1;
+    else high = middle;
+  }
+  return low < kept->count && kept->source[low] == source ? pressure[low] : 0;
+}
+
+// What multipliers of kept volumes add to the mean stress: they push outwards where they are positive. Those of single
+// elements are left out: their sums over neighbours are known, they are not.
+static vsc_wide kept_stress(const vsc_model *model, const vsc_patch *patch, size_t k, const double *pressure)
+{
+  const vsc_kept_volumes *kept = &model->kept;
+  const int corners = vsc_family_corners(patch->family);
+  vsc_wide sum = vsc_splat(0);
+  if (kept->kind == VSC_KEEP_TOTAL) return vsc_splat(-pressure[0]);
+  if (kept->kind == VSC_KEEP_REGION) return vsc_splat(-kept_at(kept, pressure, patch->material));
+  for (int c = 0; kept->kind == VSC_KEEP_NODE && c < corners; c++)
+    for (int l = 0; l < VSC_WIDTH; l++) {
+      const uint32_t node = vsc_node_of(model, patch, vsc_pack_nodes(model, patch, k)[c][l]);
+      sum[l] += kept_at(kept, pressure, model->mesh_node[node]) / corners;
+    }
+  return -sum;
+}
+
 // J sigma = sum_ab S_ab g_a (x) g_b + J p 1 of each frame; sigma = sum V (J sigma)/sum V J.
 static pack_tensors stress_of(const vsc_patch_work *work, const vsc_model *model,
                               const vsc_patch *patch, size_t k, const vsc_state *state)
@@ -155,7 +184,8 @@ static pack_tensors stress_of(const vsc_patch_work *work, const vsc_model *model
     vsc_pack_axes(model, patch, k, q, state->x, g[q]);
     J[q] = vsc_pack_ratio(g[q]);
   }
-  const vsc_wide shared = shared_pressure(work, model, patch, k, &in.moduli, J);
+  vsc_wide shared = shared_pressure(work, model, patch, k, &in.moduli, J);
+  if (model->kept.count > 0) shared += kept_stress(model, patch, k, state->kept_pressure);
   for (int q = 0; q < frames; q++) {
     const vsc_wide V = vsc_pack_frames(model, patch, k)[q].V;
     const vsc_wide pressure = V * J[q] * (shared + vsc_volume_stress(own, J[q]) +

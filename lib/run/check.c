@@ -165,7 +165,7 @@ static void say_tissue(const vsc_model *model, const vsc_material *m, const vsc_
             constants[k].unit[0] ? " " : "", constants[k].unit);
   fprintf(out,
           "; shear modulus at rest up to %.4g kPa; K %g; own K of a frame %g kPa; viscosity %g kPa ms\n",
-          vsc_material_shear(model, m), def->volume_modulus, m->element_modulus, m->viscosity);
+          vsc_material_shear(model, m), def->volume_modulus, m->stabilization, m->viscosity);
 }
 
 static void say_law(const vsc_model *model, const vsc_material *m, const vsc_material_def *def,
@@ -188,7 +188,7 @@ static void say_law(const vsc_model *model, const vsc_material *m, const vsc_mat
             "E_f,s,n %g, %g, %g; G_fs,sn,nf %g, %g, %g; K %g; own K of a frame %g kPa; damping %g, "
             "%g, %g kPa ms\n",
             m->axial[0], m->axial[1], m->axial[2], m->angular[0], m->angular[1], m->angular[2],
-            m->volume_modulus, m->element_modulus, m->damping[0], m->damping[1], m->damping[2]);
+            m->volume_modulus, m->stabilization, m->damping[0], m->damping[1], m->damping[2]);
   if (m->law == VSC_LAW_SPRINGS && m->general)
     fprintf(out, "also       %s: H_fs,sn,nf %g, %g, %g kPa; viscosity %g kPa ms\n", m->name,
             m->coupling[0], m->coupling[1], m->coupling[2], m->viscosity);

@@ -83,11 +83,15 @@ static void warn_volume(writer *w, const vsc_model *model, const vsc_material *m
 static void warn_material(writer *w, const vsc_problem *problem, size_t m)
 {
   const vsc_material *material = &problem->model->materials[m];
-  const bool takes_elements = vsc_takes_elements(&problem->scene->definition, m);
+  const vsc_definition *definition = &problem->scene->definition;
+  const bool takes_elements = vsc_takes_elements(definition, m);
   if (material->element_count == 0 && takes_elements)
     warn(w, "material %s: no element has its regions", material->name);
   if (!takes_elements) return;
   if (vsc_law_is_of_strain(material->law)) warn_volume(w, problem->model, material);
+  if (vsc_law_is_of_strain(material->law) && definition->volume == VSC_VOLUME_ELEMENT &&
+      definition->materials[m].stabilization > 0)
+    warn(w, "material %s: stabilization does nothing with volume: element", material->name);
   if (material->law == VSC_LAW_PAPER) warn_paper(w, material);
 }
 
