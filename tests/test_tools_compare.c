@@ -199,6 +199,21 @@ static void series_on_different_meshes(void **state)
   assert_close(n[3], 0.25 / sqrt(2), 1e-5, 0);
 }
 
+// The name is no pattern: out1 is another folder.
+static void folders_with_brackets(void **state)
+{
+  (void)state;
+  double n[5];
+  write_run("out[1]", 2, 1, 0, linear);
+  write_run("out1", 2, 1, 0.5, linear);
+  must("$V compare 'out[1]' out1");
+  norms_of("displacement", n);
+  assert_close(n[0], 0.5, 1e-5, 0);
+  must("$V measure 'out[1]' >first.txt && $V measure out1 >second.txt && ! cmp -s first.txt second.txt");
+  assert_int_equal(shell("mkdir 'out*' && $V measure 'out*'"), 2);
+  assert_holds(complained, "there is no series");
+}
+
 // Signals and fields with an error of C h^2, where h is 2, 1 and 1/2 mm over the root of six tets.
 static void orders_of_runs(void **state)
 {
@@ -323,6 +338,7 @@ int main(void)
       cmocka_unit_test(norms_by_volume),
       cmocka_unit_test(places_outside),
       cmocka_unit_test(series_on_different_meshes),
+      cmocka_unit_test(folders_with_brackets),
       cmocka_unit_test(orders_of_runs),
       cmocka_unit_test(orders_that_are_none),
       cmocka_unit_test(curves_by_hand),
