@@ -309,6 +309,26 @@ static void curves_by_hand(void **state)
   assert_int_equal(shell("$V compare --signals --column a=b,low,high --within 0.7 run.csv ref.csv"), 1);
 }
 
+// A table's last line counts without its end; what a run may still write does not.
+static void last_lines_without_their_end(void **state)
+{
+  (void)state;
+  vsc_signals *table = NULL;
+  save_text("open.csv", "time,b\n0,1\n1,2\n2,3.5");
+  assert_int_equal(vsc_signals_read(in_folder("open.csv"), &table, NULL), VSC_OK);
+  assert_int_equal(table->rows, 3);
+  assert_close(table->values[5], 3.5, 0, 0);
+  vsc_signals_free(table);
+  save_text("open.csv", "time,b\n0,1\n1,2\n2");
+  vsc_error error;
+  assert_int_equal(vsc_signals_read(in_folder("open.csv"), &table, &error), VSC_INPUT);
+  assert_holds(error.text, "open.csv:4");
+  save_text("signals.csv", "time,b\n0,1\n1,2\n2,3");
+  assert_int_equal(vsc_signals_read(in_folder("signals.csv"), &table, NULL), VSC_OK);
+  assert_int_equal(table->rows, 2);
+  vsc_signals_free(table);
+}
+
 static void curves_refused(void **state)
 {
   (void)state;
@@ -342,6 +362,7 @@ int main(void)
       cmocka_unit_test(orders_of_runs),
       cmocka_unit_test(orders_that_are_none),
       cmocka_unit_test(curves_by_hand),
+      cmocka_unit_test(last_lines_without_their_end),
       cmocka_unit_test(curves_refused),
   };
   return cmocka_run_group_tests(tests, program_open, program_close);
