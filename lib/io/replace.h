@@ -4,6 +4,7 @@
 #define VSC_IO_REPLACE_H
 
 #include <stdbool.h>
+#include <stdio.h>
 
 #include "base/status.h"
 
@@ -19,5 +20,14 @@ vsc_status vsc_replace_end(const char *file, const char *temporary, bool durable
 
 // Removes the temporary file after a failure.
 void vsc_replace_cancel(const char *temporary);
+
+// The same for a text: opens a stream to write the new content of `file` to. What is there and no file, a
+// device or a pipe, is written to itself; `temporary` is then empty. NULL, with *error of status VSC_SYSTEM
+// or (a name too long) VSC_INPUT, when that fails.
+FILE *vsc_replace_open(const char *file, char temporary[VSC_FILE_NAME], vsc_error *error);
+
+// Closes that stream and gives the content its name; VSC_SYSTEM when not all could be written: what was
+// there before then stays.
+vsc_status vsc_replace_close(FILE *stream, const char *file, const char *temporary, vsc_error *error);
 
 #endif
