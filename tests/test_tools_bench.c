@@ -69,6 +69,9 @@ static void pictures_of_tables(void **state)
   assert_false(load_text("error.png", second, sizeof second) == length && memcmp(first, second, length) == 0);
   save_text("stability.csv", "stress,law,element,method,outcome\nflat,springs,tets,explicit,survives\n"
                              "flat,springs,hexes,implicit,stops\n");
+  // a full disk leaves nothing behind
+  assert_int_equal(shell("trap '' XFSZ; ulimit -f 1; $V plot --errors error.csv -o full.png >/dev/null"), 4);
+  assert_int_equal(shell("ls full.png*"), 2);
   must("$V plot --outcomes stability.csv -o stability.png");
   assert_true(load_text("stability.png", first, sizeof first) > 1000);
   assert_int_equal(shell("$V plot --outcomes error.csv -o no.png"), 2);

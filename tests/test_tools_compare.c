@@ -156,6 +156,66 @@ static void places_outside(void **state)
   assert_holds(said, "0 further than 3 mm");
 }
 
+// Reports success only for what was compared.
+static void nothing_compared_is_no_success(void **state)
+{
+  (void)state;
+  static const double one[216] = {1};
+  write_field("tets.vtu", tets(4), linear, 0, 1);
+  write_field("wide.vtu", box_mesh((const int[3]){5, 1, 1}, 1.2, NULL), linear, 0, 1);
+  assert_int_equal(shell("$V compare -t 9 --reach 1 wide.vtu tets.vtu"), 1);
+  assert_holds(said, "places of A were left out");
+  must("$V compare -t 9 --reach 3 wide.vtu tets.vtu");
+  vsc_mesh *mesh = tets(4);
+  for (size_t n = 0; n < mesh->node_count; n++) mesh->nodes[3 * n] += 300;
+  write_field("far.vtu", mesh, linear, 0, 1);
+  assert_int_equal(shell("$V compare -t 9 --interpolate far.vtu tets.vtu"), 1);
+  assert_holds(said, "no value was compared: A lies outside B");
+  must("$V compare --interpolate far.vtu tets.vtu");
+  for (int n = 2; n <= 4; n += 2) {
+    mesh = tets(n);
+    const vsc_vtk_array other = {"other", 1, one, VSC_ON_NODES, false};
+    if (vsc_vtk_write_mesh(in_folder("other.vtu"), mesh, 1, &other, true, NULL) != VSC_OK) fail_msg("other.vtu");
+    vsc_mesh_free(mesh);
+    assert_int_equal(shell("$V compare -t 9 other.vtu tets.vtu"), 1);
+    assert_holds(said, "no value was compared: no array is in both");
+  }
+}
+
+// The same tets from the last to the first.
+static vsc_mesh *backwards(vsc_mesh *mesh)
+{
+  vsc_mesh *turned = NULL;
+  uint32_t *corners = NULL;
+  const size_t count = mesh->element_count;
+  if (!VSC_NEW(corners, 4 * count)) fail_msg("no memory");
+  for (size_t e = 0; e < count; e++)
+    memcpy(corners + 4 * e, mesh->corners + 4 * (count - 1 - e), 4 * sizeof *corners);
+  if (vsc_mesh_from_arrays(mesh->node_count, mesh->nodes, count, corners, &turned, NULL) != VSC_OK)
+    fail_msg("no mesh");
+  vsc_free(corners);
+  vsc_mesh_free(mesh);
+  return turned;
+}
+
+static void elements_in_another_order(void **state)
+{
+  (void)state;
+  write_field("there.vtu", tets(4), linear, 0, 1);
+  write_field("back.vtu", backwards(tets(4)), linear, 0, 1);
+  must("$V compare -t 0 there.vtu back.vtu");
+  assert_holds(said, "(positions)");
+  assert_holds(said, "in another order: A's take");
+}
+
+static void axes_have_no_sign(void **state)
+{
+  (void)state;
+  write_field("plus.vtu", tets(3), linear, 0, 1);
+  write_field("minus.vtu", tets(3), linear, 0, -1);
+  must("$V compare -t 0 plus.vtu minus.vtu");
+}
+
 static void write_run(const char *folder, int n, double signal, double shift, field *of)
 {
   char name[128], text[256];
@@ -197,6 +257,21 @@ static void series_on_different_meshes(void **state)
   memmove(said, last, strlen(last) + 1);
   norms_of("displacement", n);  // over both frames
   assert_close(n[3], 0.25 / sqrt(2), 1e-5, 0);
+}
+
+// The name is no pattern: out1 is another folder.
+static void folders_with_brackets(void **state)
+{
+  (void)state;
+  double n[5];
+  write_run("out[1]", 2, 1, 0, linear);
+  write_run("out1", 2, 1, 0.5, linear);
+  must("$V compare 'out[1]' out1");
+  norms_of("displacement", n);
+  assert_close(n[0], 0.5, 1e-5, 0);
+  must("$V measure 'out[1]' >first.txt && $V measure out1 >second.txt && ! cmp -s first.txt second.txt");
+  assert_int_equal(shell("mkdir 'out*' && $V measure 'out*'"), 2);
+  assert_holds(complained, "there is no series");
 }
 
 // Signals and fields with an error of C h^2, where h is 2, 1 and 1/2 mm over the root of six tets.
@@ -285,13 +360,38 @@ static void curves_by_hand(void **state)
   assert_int_equal(d.within, 2);
   vsc_signals_free(run);
   vsc_signals_free(reference);
-  must("$V compare --signals --column a=b,low,high --column other=b -t 0.9 --within 0.66 run.csv ref.csv");
+  must("$V compare --signals --column a=b,low,high --column other=b run.csv ref.csv");
   assert_holds(said, "0.426401");  // sqrt(0.5/2.75)
   assert_holds(said, "66.7 %");
   assert_holds(said, "together");
   assert_holds(said, "does not reach: 1\n");
+  // judged are all times of the reference
+  assert_int_equal(shell("$V compare --signals --column a=b -t 0.9 run.csv ref.csv"), 1);
+  assert_int_equal(shell("$V compare --signals --column a=b,low,high --within 0.66 run.csv ref.csv"), 1);
+  save_text("ref.csv", "time_s,b,low,high\n0,0,-1,2\n0.5,1,-1,2\n1.5,2,-1,2\n");
+  must("$V compare --signals --column a=b,low,high -t 0.9 --within 0.66 run.csv ref.csv");
   assert_int_equal(shell("$V compare --signals --column a=b -t 0.4 run.csv ref.csv"), 1);
   assert_int_equal(shell("$V compare --signals --column a=b,low,high --within 0.7 run.csv ref.csv"), 1);
+}
+
+// A table's last line counts without its end; what a run may still write does not.
+static void last_lines_without_their_end(void **state)
+{
+  (void)state;
+  vsc_signals *table = NULL;
+  save_text("open.csv", "time,b\n0,1\n1,2\n2,3.5");
+  assert_int_equal(vsc_signals_read(in_folder("open.csv"), &table, NULL), VSC_OK);
+  assert_int_equal(table->rows, 3);
+  assert_close(table->values[5], 3.5, 0, 0);
+  vsc_signals_free(table);
+  save_text("open.csv", "time,b\n0,1\n1,2\n2");
+  vsc_error error;
+  assert_int_equal(vsc_signals_read(in_folder("open.csv"), &table, &error), VSC_INPUT);
+  assert_holds(error.text, "open.csv:4");
+  save_text("signals.csv", "time,b\n0,1\n1,2\n2,3");
+  assert_int_equal(vsc_signals_read(in_folder("signals.csv"), &table, NULL), VSC_OK);
+  assert_int_equal(table->rows, 2);
+  vsc_signals_free(table);
 }
 
 static void curves_refused(void **state)
@@ -322,10 +422,15 @@ int main(void)
       cmocka_unit_test(quadratic_fields_on_quadratic_tets),
       cmocka_unit_test(norms_by_volume),
       cmocka_unit_test(places_outside),
+      cmocka_unit_test(nothing_compared_is_no_success),
+      cmocka_unit_test(elements_in_another_order),
+      cmocka_unit_test(axes_have_no_sign),
+      cmocka_unit_test(folders_with_brackets),
       cmocka_unit_test(series_on_different_meshes),
       cmocka_unit_test(orders_of_runs),
       cmocka_unit_test(orders_that_are_none),
       cmocka_unit_test(curves_by_hand),
+      cmocka_unit_test(last_lines_without_their_end),
       cmocka_unit_test(curves_refused),
   };
   return cmocka_run_group_tests(tests, program_open, program_close);

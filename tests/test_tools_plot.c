@@ -217,6 +217,10 @@ static void test_says_what_is_wrong(void **state)
   assert_int_equal(run("plot --axis 0,0,0 %s", folder), 2);
   assert_true(said("--axis"));
   assert_int_equal(run("plot --at soon %s", folder), 2);
+  assert_int_equal(run("plot -o beat.jpg %s", folder), 2);
+  assert_true(said("ends in .png"));
+  assert_int_equal(run("plot --view -o view %s", folder), 2);
+  assert_true(said("ends in .png"));
   write_signals("time [s],step [ms]", 3);
   assert_int_equal(run("plot %s", folder), 2);
   assert_true(said("signals.csv:2"));

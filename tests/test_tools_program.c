@@ -200,6 +200,34 @@ static void test_info(void **state)
   assert_holds(said, "viscera checkpoint");
   assert_holds(said, "5 x 3 [mm]");
   assert_holds(said, "18446744073709551614");
+  write_mesh("LOUD.VTU", 5, 0);
+  assert_int_equal(run("info LOUD.VTU"), 0);
+}
+
+static void save_scene(const char *material)
+{
+  FILE *stream = fopen(in_folder("scene.yaml"), "w");
+  assert_non_null(stream);
+  fprintf(stream,
+          "mesh: {file: a.vtu, unit: mm}\nfibers: {source: constant, constant: {fiber: [1, 0, 0]}}\n"
+          "materials: [{name: m, density: 1 g/cm3, %s}]\ntime: {end: 1 ms}\n",
+          material);
+  assert_int_equal(fclose(stream), 0);
+}
+
+static void test_info_of_scenes(void **state)
+{
+  (void)state;
+  save_scene("axial: {f: 3 kPa, s: 2 kPa, n: 1 kPa}, angular: {fs: 4 kPa, sn: 5 kPa, nf: 6 kPa}, volume_modulus: 9 kPa");
+  assert_int_equal(run("info scene.yaml"), 0);
+  assert_holds(said, "fibres                 one direction everywhere\n");
+  assert_holds(said, "m: springs, axial 3, 2, 1, angular 4, 5, 6 kPa; passive\n");
+  save_scene("law: neo_hookean, neo_hookean: {shear: 7 kPa}, volume_modulus: 50 kPa");
+  assert_int_equal(run("info scene.yaml"), 0);
+  assert_holds(said, "m: law neo_hookean, shear 7 kPa; passive\n");
+  save_scene("law: classical, classical: {stiffness: 8 mN/mm}");
+  assert_int_equal(run("info scene.yaml"), 0);
+  assert_holds(said, "m: law classical, 8 mN/mm; passive\n");
 }
 
 static void test_info_says_what_is_wrong(void **state)
@@ -305,6 +333,7 @@ int main(void)
       cmocka_unit_test(test_every_verb_has_help_with_examples),
       cmocka_unit_test(test_a_full_disk_is_an_error),
       cmocka_unit_test(test_info),
+      cmocka_unit_test(test_info_of_scenes),
       cmocka_unit_test(test_info_says_what_is_wrong),
       cmocka_unit_test(test_compare_meshes),
       cmocka_unit_test(test_surfaces),

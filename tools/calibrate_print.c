@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/calibrate_print.h"
 
-#include <errno.h>
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/vec3.h"
+#include "io/replace.h"
 
 // ---- the table
 
@@ -163,14 +163,11 @@ static void write_point(FILE *stream, const vsc_answer *answer, int plane, int d
 
 vsc_status vsc_write_polar(const char *file, const vsc_answer *answer, vsc_error *error)
 {
-  FILE *stream = fopen(file, "w");
-  if (stream == NULL)
-    return vsc_fail(error, VSC_SYSTEM, "%s: can't be written: %s", file, strerror(errno));
+  char temporary[VSC_FILE_NAME];
+  FILE *stream = vsc_replace_open(file, temporary, error);
+  if (stream == NULL) return error->status;
   fputs("plane,angle [degrees],wanted [kPa],springs [kPa],measured [kPa]\n", stream);
   for (int plane = 0; plane < 3; plane++)
     for (int degrees = 0; degrees <= 360; degrees++) write_point(stream, answer, plane, degrees);
-  const bool bad = ferror(stream) != 0;
-  if (fclose(stream) != 0 || bad)
-    return vsc_fail(error, VSC_SYSTEM, "%s: can't be written: %s", file, strerror(errno));
-  return VSC_OK;
+  return vsc_replace_close(stream, file, temporary, error);
 }

@@ -46,8 +46,9 @@ static void print_help(void)
       "  RMS          root of the mean of (a - b)^2\n"
       "  relative L2  |a - b|_2 / |b|_2: B is the reference\n"
       "  by volume    the same with each value weighted by the tissue it stands for\n\n"
-      "  -t, --tolerance X  exit code 1 when a relative L2 is above X, or when a frame of one\n"
-      "                     series is missing in the other; else 0\n"
+      "  -t, --tolerance X  exit code 1 when a relative L2 is above X, when a frame of one\n"
+      "                     series is missing in the other, when places were left out, or when\n"
+      "                     nothing was compared; else 0\n"
       "      --frames       the norms of each frame too\n"
       "      --reach MM     how far places of A may lie outside B, whose nearest place is\n"
       "                     taken; others are left out and counted [half B's elements]\n"
@@ -61,11 +62,12 @@ static void print_help(void)
       "      --sizes H,H,H  sizes of the runs [(volume/elements)^(1/3) of their meshes; on one\n"
       "                     mesh their steps]\n\n"
       "--signals: columns of RUN (a folder or a signals.csv) against those of a table; the\n"
-      "first column of both is the time. Tolerance: of all columns together.\n"
+      "first column of both is the time. Tolerance: of all columns together; exit code 1 also\n"
+      "when the run does not reach all times of the table.\n"
       "      --column A=B[,LOW,HIGH]  which, again for more; LOW and HIGH are the columns of a\n"
       "                               band\n"
       "      --within SHARE           exit code 1 when less than this part of the times, 0 to\n"
-      "                               1, is within the bands\n\n"
+      "                               1, is within the bands, or the run does not reach all\n\n"
       "Examples:\n"
       "  viscera compare old/beat.pvd new/beat.pvd\n"
       "  viscera compare --tolerance 1e-6 result.vtu reference.vtu\n"
@@ -114,6 +116,10 @@ static bool print_norms(const vsc_comparison *all, double tolerance)
     const vsc_norms *n = &all->arrays[k];
     const double relative = vsc_norms_relative(n, false);
     const bool above = !(relative <= tolerance);
+    if (n->values == 0) {
+      printf("%-24s %-9s %13s\n", n->name, n->where, "-");
+      continue;
+    }
     printf("%-24s %-9s %13.6g %13.6g %13.6g", n->name, n->where, n->largest, vsc_norms_rms(n, false),
            relative);
     if (n->volume > 0)
@@ -126,9 +132,30 @@ static bool print_norms(const vsc_comparison *all, double tolerance)
   return within;
 }
 
+// Whether something was compared, and at all of A's places; says so when not. Equal positions are an answer
+// where there are no arrays to compare.
+static bool print_left_out(const vsc_comparison *all)
+{
+  size_t compared = 0, left_out = 0;
+  for (size_t k = 0; k < all->count; k++) {
+    const bool counts = all->note[0] == '\0' || strcmp(all->arrays[k].name, "(positions)") != 0;
+    if (counts) compared += all->arrays[k].values;
+    left_out += all->arrays[k].left_out;
+  }
+  if (compared == 0)
+    printf("no value was compared: %s\n", left_out > 0 ? "A lies outside B" : "no array is in both");
+  else if (left_out > 0)
+    puts("places of A were left out: --reach says how far outside B they may lie");
+  return compared > 0 && left_out == 0;
+}
+
 static void print_places(const vsc_pair *pair)
 {
-  if (pair->a == NULL || pair->same) return;
+  if (pair->a == NULL) return;
+  if (pair->same && pair->centres != NULL)
+    puts("elements joined to other points or in another order: A's take the values of those of B in "
+         "which their centres lie");
+  if (pair->same) return;
   printf("B's values interpolated at A's nodes: %zu of %zu outside B, their nearest place taken, %zu "
          "further than %.4g mm left out",
          pair->outside, pair->a->node_count, pair->left_out, pair->limit);
@@ -227,9 +254,9 @@ static int compare_fields(const wish *wish, char *const given[2])
   int code = compare_files(wish, given, &all, &pair, &missing, &error);
   if (code == VSC_OK) {
     print_places(&pair);
-    const bool within = print_norms(&all, wish->tolerance);
+    const bool within = print_norms(&all, wish->tolerance), complete = print_left_out(&all);
     if (all.note[0] != '\0') printf("not compared: %s\n", all.note);
-    if (!within || (missing > 0 && isfinite(wish->tolerance))) code = DIFFERENT;
+    if (!within || ((missing > 0 || !complete) && isfinite(wish->tolerance))) code = DIFFERENT;
   } else {
     fflush(stdout);
     fprintf(stderr, "viscera: compare: %s\n", error.text);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/vec3.h"
 #include "io/vtk.h"
 
 static vsc_norms *find_or_add(vsc_comparison *all, const char *name, const char *where)
@@ -61,18 +62,20 @@ static bool is_axis(const vsc_array *array)
 }
 
 // The value of B's array at place `i`.
-static void value_of_b(const places *at, const vsc_array *b, const double *a, size_t i, double *value)
+static void value_of_b(const places *at, const vsc_array *b, size_t i, double *value)
 {
   const size_t width = (size_t)b->components;
-  const vsc_place *place = &at->in_b[i];
-  if (at->in_b == at->pair->nodes) {
-    vsc_place_value(at->pair->b, place, b->components, b->values, value);
-    return;
-  }
-  memcpy(value, b->values + width * place->element, width * sizeof *value);
-  if (!is_axis(b)) return;
-  const double along = a[0] * value[0] + a[1] * value[1] + a[2] * value[2];
-  for (size_t c = 0; c < 3 && along < 0; c++) value[c] = -value[c];
+  if (at->in_b != NULL && at->in_b == at->pair->nodes)
+    vsc_place_value(at->pair->b, &at->in_b[i], b->components, b->values, value);
+  else
+    memcpy(value, b->values + width * (at->in_b != NULL ? at->in_b[i].element : i),
+           width * sizeof *value);
+}
+
+static void turn_towards(const double a[3], double axis[3])
+{
+  const double along = vsc_dot(a, axis);
+  for (size_t c = 0; c < 3 && along < 0; c++) axis[c] = -axis[c];
 }
 
 static vsc_status add_array(vsc_comparison *all, const places *at, const vsc_array *a,
@@ -82,15 +85,17 @@ static vsc_status add_array(vsc_comparison *all, const places *at, const vsc_arr
   double *value;
   const size_t width = (size_t)a->components;
   if (n == NULL || !VSC_NEW(value, width)) return vsc_fail_memory(error, "the comparison");
+  const bool axes = is_axis(b) && strcmp(at->name, "elements") == 0;
   for (size_t i = 0; i < at->count; i++) {
-    const double *first = a->values + width * i, *second = b->values + width * i;
-    if (at->in_b != NULL) {
-      if (at->in_b[i].distance > at->pair->limit) continue;
-      value_of_b(at, b, first, i, value);
-      second = value;
+    const double *first = a->values + width * i;
+    if (at->in_b != NULL && at->in_b[i].distance > at->pair->limit) {
+      n->left_out++;
+      continue;
     }
+    value_of_b(at, b, i, value);
+    if (axes) turn_towards(first, value);
     for (size_t c = 0; c < width; c++)
-      add_value(n, first[c], second[c], at->volumes != NULL ? at->volumes[i] : 0);
+      add_value(n, first[c], value[c], at->volumes != NULL ? at->volumes[i] : 0);
   }
   vsc_free(value);
   return VSC_OK;
@@ -128,10 +133,6 @@ static vsc_status add_positions(vsc_comparison *all, const places *points, const
 {
   const vsc_array first = {"(positions)", 3, a->node_count, a->nodes};
   const vsc_array second = {"(positions)", 3, b->node_count, b->nodes};
-  const size_t corners = a->start[a->element_count];
-  if (memcmp(a->kinds, b->kinds, a->element_count * sizeof *a->kinds) != 0 ||
-      memcmp(a->corners, b->corners, corners * sizeof *a->corners) != 0)
-    note(all, "elements", "joined to other points or in another order");
   return add_array(all, points, &first, &second, error);
 }
 
@@ -188,6 +189,7 @@ vsc_status vsc_comparison_merge(vsc_comparison *all, const vsc_comparison *more,
     to->squares += from->squares;
     to->reference += from->reference;
     to->values += from->values;
+    to->left_out += from->left_out;
     to->volume += from->volume;
     to->volume_squares += from->volume_squares;
     to->volume_reference += from->volume_reference;

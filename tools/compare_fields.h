@@ -15,6 +15,7 @@ typedef struct vsc_norms {
   double squares;     // sum d^2
   double reference;   // sum b^2
   size_t values;      // n
+  size_t left_out;    // places of A that lie too far outside B to have a value there
   double volume;            // sum V over the n values: mm^3 that the place of each stands for; 0 where
                             // there are no elements
   double volume_squares;    // sum V d^2
@@ -31,7 +32,8 @@ typedef struct vsc_comparison {
 // Adds the arrays that two files have in common. On the same mesh (and on one of the same counts and
 // connectivity, whose positions are compared too) value by value; else the arrays of B, the reference, are
 // interpolated at A's nodes, and A's elements take the values of those of B in which their centres
-// lie; the fibre axes there, which have no sign, the sign that is nearer. `pair` is made for the first
+// lie. The latter also where only the nodes are the same. Elements' fibre axes, which have no sign, are
+// compared with the sign that is nearer. `pair` is made for the first
 // files and again only when meshes change. VSC_INPUT for files that cannot be read, and for different
 // meshes of which one is a surface.
 vsc_status vsc_compare_files(vsc_comparison *all, vsc_pair *pair, const char *file_a,

@@ -73,24 +73,29 @@ static void count_outside(vsc_pair *pair)
   }
 }
 
-static vsc_status find_places(vsc_pair *pair, vsc_error *error)
+static vsc_status find_nodes(vsc_pair *pair, vsc_error *error)
 {
   const vsc_mesh *a = pair->a;
-  double *centres;
-  if (!VSC_NEW(pair->nodes, a->node_count) || !VSC_NEW(pair->centres, a->element_count))
-    return vsc_fail_memory(error, "an interpolation");
-  if (!VSC_NEW(centres, 3 * a->element_count)) return vsc_fail_memory(error, "an interpolation");
-  for (size_t e = 0; e < a->element_count; e++) vsc_mesh_element_centre(a, e, centres + 3 * e);
-  vsc_status status = vsc_vtk_probe(pair->b, a->node_count, a->nodes, pair->nodes, error);
-  if (status == VSC_OK)
-    status = vsc_vtk_probe(pair->b, a->element_count, centres, pair->centres, error);
-  vsc_free(centres);
-  pair->limit = pair->reach > 0 ? pair->reach : 0.5 * vsc_mesh_element_size(pair->b);
+  if (!VSC_NEW(pair->nodes, a->node_count)) return vsc_fail_memory(error, "an interpolation");
+  const vsc_status status = vsc_vtk_probe(pair->b, a->node_count, a->nodes, pair->nodes, error);
   if (status == VSC_OK) count_outside(pair);
   return status;
 }
 
-// The same connectivity is the same mesh, moved perhaps; the same nodes with others are compared too.
+static vsc_status find_centres(vsc_pair *pair, vsc_error *error)
+{
+  const vsc_mesh *a = pair->a;
+  double *centres;
+  if (!VSC_NEW(pair->centres, a->element_count)) return vsc_fail_memory(error, "an interpolation");
+  if (!VSC_NEW(centres, 3 * a->element_count)) return vsc_fail_memory(error, "an interpolation");
+  for (size_t e = 0; e < a->element_count; e++) vsc_mesh_element_centre(a, e, centres + 3 * e);
+  const vsc_status status =
+      vsc_vtk_probe(pair->b, a->element_count, centres, pair->centres, error);
+  vsc_free(centres);
+  return status;
+}
+
+// The same connectivity is the same mesh, moved perhaps; the same nodes are compared whatever joins them.
 static bool are_same(const vsc_pair *pair)
 {
   const vsc_mesh *a = pair->a, *b = pair->b;
@@ -113,7 +118,9 @@ vsc_status vsc_pair_make(vsc_pair *pair, vsc_mesh *a, const char *file_a, vsc_me
                     "meshes can be compared where both have elements",
                     file_a, a->node_count, a->element_count, file_b, b->node_count, b->element_count);
   vsc_status status = measure_volumes(pair, error);
-  if (status == VSC_OK && !pair->same) status = find_places(pair, error);
+  pair->limit = pair->reach > 0 ? pair->reach : 0.5 * vsc_mesh_element_size(b);
+  if (status == VSC_OK && !pair->same) status = find_nodes(pair, error);
+  if (status == VSC_OK && !(pair->same && same_corners(a, b))) status = find_centres(pair, error);
   return status;
 }
 

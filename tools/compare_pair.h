@@ -12,11 +12,11 @@ typedef struct vsc_pair {
   double reach;       // a wish: mm that A's places may lie outside B; 0: half the size of B's elements
   bool interpolate;   // a wish: also between meshes of the same connectivity
   vsc_mesh *a, *b;    // owned; NULL when empty
-  bool same;          // compared value by value
+  bool same;          // nodes compared value by value; elements too, unless there are centres
   double *node_volumes;     // A's: mm^3 that each node stands for (vsc_lumped_volumes)
   double *element_volumes;  // A's, mm^3
   vsc_place *nodes;    // where A's nodes lie in B; NULL when same
-  vsc_place *centres;  // where the centres of A's elements lie in B
+  vsc_place *centres;  // where the centres of A's elements lie in B; NULL when the elements are the same
   double limit;        // mm: places further outside than that are left out
   size_t outside;      // nodes of A that lie outside B, but not further; more than 1e-6 of its size
   size_t left_out;     // those further outside

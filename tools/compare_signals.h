@@ -40,7 +40,8 @@ double vsc_curve_relative(const vsc_curve_distance *distance);
 
 // What `viscera compare --signals` does: `run` is a table or a folder that has signals.csv. Prints a row
 // for each pair and one for all together. Returns the exit code: 1 when the relative L2 of all together
-// is above `tolerance`, or their share within the bands is below `share`.
+// is above `tolerance`, or their share within the bands is below `share`, or when either is asked for (a
+// finite tolerance, a share above 0) and the run does not reach all times of the reference.
 int vsc_compare_signals(const char *run, const char *reference, size_t count,
                         const vsc_curve_pair *pairs, double tolerance, double share);
 

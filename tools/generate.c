@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/mem.h"
 #include "io/vtk.h"
@@ -51,14 +52,32 @@ static double mesh_volume(const vsc_mesh *mesh)
   return volume;
 }
 
+// What the endocardium encloses with its mouth capped, mm^3.
+static vsc_status measure_cavity(const vsc_mesh *mesh, double *volume, vsc_error *error)
+{
+  const vsc_selector endo = {.kind = VSC_SELECT_NODE_ARRAY, .array = "endo", .low = 1, .high = 1};
+  vsc_surface boundary = {.count = 0}, inside = {.count = 0};
+  vsc_cavity cavity = {.rim_count = 0};
+  vsc_status status = vsc_boundary(mesh, &boundary, error);
+  if (status == VSC_OK) status = vsc_select_surface(mesh, &boundary, &endo, &inside, error);
+  if (status == VSC_OK) status = vsc_cavity_make(&inside, mesh->node_count, &cavity, error);
+  if (status == VSC_OK) *volume = vsc_cavity_volume(&cavity, mesh->nodes, 3);
+  vsc_cavity_free(&cavity);
+  vsc_surface_free(&inside);
+  vsc_surface_free(&boundary);
+  return status;
+}
+
 static vsc_status generate_lv(const vsc_generate_wish *wish, const char *file, vsc_error *error)
 {
   vsc_mesh *mesh = NULL;
+  double cavity = 0;
   vsc_status status = vsc_lv_mesh(&wish->lv, &mesh, error);
+  if (status == VSC_OK) status = measure_cavity(mesh, &cavity, error);
   if (status == VSC_OK) status = write_mesh(file, mesh, error);
   if (status == VSC_OK)
     printf("%s: %zu nodes, %zu elements, wall %.1f ml, cavity %.1f ml\n", file, mesh->node_count,
-           mesh->element_count, mesh_volume(mesh) / 1000, vsc_lv_volume(&wish->lv, 0) / 1000);
+           mesh->element_count, mesh_volume(mesh) / 1000, cavity / 1000);
   vsc_mesh_free(mesh);
   return status;
 }
@@ -202,6 +221,16 @@ static vsc_status generate_vessels(const vsc_generate_wish *wish, const char *fi
   return status;
 }
 
+// Refuses a name whose ending is not that of `usual`: readers go by it.
+static vsc_status check_ending(const char *shape, const char *file, const char *usual, vsc_error *error)
+{
+  const char *right = strrchr(usual, '.'), *name = strrchr(file, '/'), *dot = strrchr(file, '.');
+  if (dot == NULL || (name != NULL && dot < name)) dot = file + strlen(file);
+  if (strcasecmp(dot, right) == 0) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT, "-o %s: what %s makes is a %s: call it %.*s%s", file, shape, right,
+                  (int)(dot - file), file, right);
+}
+
 static vsc_status generate(const vsc_generate_wish *wish, vsc_error *error)
 {
   static const struct {
@@ -223,9 +252,13 @@ static vsc_status generate(const vsc_generate_wish *wish, vsc_error *error)
       (wish->size_numbers > 0 && wish->size_numbers != numbers))
     return vsc_fail(error, VSC_INPUT, "--cells and --size of a %s want %d numbers", wish->shape,
                     numbers);
-  for (size_t k = 0; k < sizeof shapes / sizeof shapes[0]; k++)
-    if (strcmp(wish->shape, shapes[k].name) == 0)
-      return shapes[k].make(wish, wish->file != NULL ? wish->file : shapes[k].file, error);
+  if (vsc_generate_check(wish, error) != VSC_OK) return error->status;
+  for (size_t k = 0; k < sizeof shapes / sizeof shapes[0]; k++) {
+    if (strcmp(wish->shape, shapes[k].name) != 0) continue;
+    const char *file = wish->file != NULL ? wish->file : shapes[k].file;
+    if (check_ending(wish->shape, file, shapes[k].file, error) != VSC_OK) return error->status;
+    return shapes[k].make(wish, file, error);
+  }
   return vsc_fail(error, VSC_INPUT, "unknown shape '%s', must be lv, map, block, sheet, tube, cook, "
                   "column, cylinder, octant, liver or vessels",
                   wish->shape);

@@ -11,7 +11,8 @@ void vsc_generate_help(void)
   puts(
       "Usage: viscera generate lv|map|block|sheet|tube|cook|column|cylinder|octant|liver|\n"
       "                        vessels [OPTION]...\n"
-      "Makes a mesh or an angle map by formulas. Lengths are mm, angles degrees.\n\n"
+      "Makes a mesh or an angle map by formulas. Lengths are mm, angles degrees. An option of\n"
+      "another shape is refused.\n\n"
       "lv: a left ventricle between two half ellipsoids about z, apex at -z, cut by the plane\n"
       "z = base; node arrays endo, epi, base, rim (0 or 1), cell array region. With map: the\n"
       "azimuth/elevation image of its fibre helix; arrays azimuth, elevation, tissue.\n"
@@ -69,7 +70,7 @@ void vsc_generate_help(void)
       "vessels: the centre lines of its vessels with their radii.\n"
       "      --bricks=N                       bricks of 5 tets along each side [10]\n"
       "      --tree=portal|hepatic            which tree [portal]\n\n"
-      "  -o, --output=FILE                    [the shape's name with its ending]\n"
+      "  -o, --output=FILE                    .vtu, of a map .vti, of vessels .vtp [the shape's name]\n"
       "  -h, --help                           this text\n\n"
       "Examples:\n"
       "  viscera generate lv -o data/lv.vtu\n"
@@ -153,6 +154,62 @@ const struct option vsc_generate_options[] = {
     {NULL, 0, NULL, 0},
 };
 
+#define WALL "endo-radius endo-length epi-radius epi-length base like "
+
+// Their options by name; a block of scattered points has others than one of bricks.
+static const struct {
+  const char *shape, *options;
+} shapes[] = {{"lv", WALL "around along layers element base-rise along-x surfaces"},
+              {"map", WALL "endo-angle epi-angle spacing"},
+              {"block", "cells size tets jitter seed element"},
+              {"block --unstructured", "unstructured size points seed"},
+              {"sheet", "cells size jitter seed"},
+              {"tube", "radius length around along"},
+              {"cook", "cells thickness element tets"},
+              {"column", "bend twist cells size element tets"},
+              {"cylinder", "inner outer length layers around along element"},
+              {"octant", "inner outer layers around element"},
+              {"liver", "bricks"},
+              {"vessels", "tree"}};
+enum { SHAPES = sizeof shapes / sizeof shapes[0] };
+
+static bool has_option(size_t shape, const char *name)
+{
+  const size_t length = strlen(name);
+  const char *at = shapes[shape].options;
+  while (*at != '\0') {
+    const size_t word = strcspn(at, " ");
+    if (word == length && strncmp(at, name, length) == 0) return true;
+    at += word + (at[word] == ' ');
+  }
+  return false;
+}
+
+static vsc_status refuse(const char *shape, const char *option, vsc_error *error)
+{
+  char others[256] = "";
+  for (size_t k = 0; k < SHAPES; k++) {
+    const size_t used = strlen(others);
+    if (has_option(k, option))
+      snprintf(others + used, sizeof others - used, "%s%s", used > 0 ? ", " : "", shapes[k].shape);
+  }
+  return vsc_fail(error, VSC_INPUT, "%s has no --%s, which is an option of %s: leave it out", shape,
+                  option, others);
+}
+
+vsc_status vsc_generate_check(const vsc_generate_wish *wish, vsc_error *error)
+{
+  const bool scattered = wish->unstructured && strcmp(wish->shape, "block") == 0;
+  const char *shape = scattered ? "block --unstructured" : wish->shape;
+  size_t k = 0;
+  while (k < SHAPES && strcmp(shapes[k].shape, shape) != 0) k++;
+  for (const struct option *o = vsc_generate_options; k < SHAPES && o->name != NULL; o++)
+    if (o->val >= ENDO_RADIUS && (wish->given >> (o->val - ENDO_RADIUS) & 1) != 0 &&
+        !has_option(k, o->name))
+      return refuse(shape, o->name, error);
+  return VSC_OK;
+}
+
 // Reads `count` numbers with commas between them; false when the text holds anything else.
 static bool read_numbers(const char *text, double *numbers, int count)
 {
@@ -211,6 +268,7 @@ bool vsc_generate_option(vsc_generate_wish *wish, int option, const char *text)
 {
   size_t count = 0;
   bool good;
+  wish->given |= UINT64_C(1) << (option - ENDO_RADIUS);
   switch (option) {
     case ENDO_RADIUS:
       return read_numbers(text, &wish->lv.endo_radius, 1);

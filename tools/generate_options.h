@@ -5,13 +5,14 @@
 
 #include <getopt.h>
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "tools/shapes_column.h"
 #include "tools/shapes_liver.h"
 #include "tools/shapes_sheet.h"
 #include "tools/shapes_shells.h"
 
-// Shapes with what was said about them; each shape takes what concerns it.
+// Shapes with what was said about them; each shape takes what concerns it (vsc_generate_check).
 typedef struct vsc_generate_wish {
   const char *shape;
   const char *file;
@@ -28,6 +29,7 @@ typedef struct vsc_generate_wish {
   vsc_liver_tree tree;
   double endo_angle, epi_angle;  // degrees
   double spacing;                // mm; 0: a quarter of the wall
+  uint64_t given;                // a bit for each option that was
 } vsc_generate_wish;
 
 extern const struct option vsc_generate_options[];  // for getopt_long, beside -o and -h
@@ -36,5 +38,9 @@ void vsc_generate_help(void);  // prints it
 
 // Takes in one option with its text; false when the text does not fit.
 bool vsc_generate_option(vsc_generate_wish *wish, int option, const char *text);
+
+// VSC_INPUT for options that the shape does not have, with the shapes that have them. A shape that is not
+// known has all.
+vsc_status vsc_generate_check(const vsc_generate_wish *wish, vsc_error *error);
 
 #endif

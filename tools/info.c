@@ -2,8 +2,10 @@
 // `viscera info`: what a file holds, in some twenty lines.
 #include <getopt.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 #include "base/mem.h"
@@ -14,6 +16,7 @@
 #include "io/vtk.h"
 #include "mesh/quality.h"
 #include "mesh/select.h"
+#include "model/law_constants.h"
 #include "tools/verbs.h"
 
 static void print_help(void)
@@ -195,6 +198,8 @@ static const char *fiber_source_text(const vsc_fiber_def *fibers)
       return "none: all tissue is passive";
     case VSC_FIBER_MAP:
       return "the voxel map";
+    case VSC_FIBER_CONSTANT:
+      return "one direction everywhere";
     case VSC_FIBER_ARRAYS:
       return "arrays of the mesh";
     case VSC_FIBER_HELIX:
@@ -206,6 +211,27 @@ static const char *fiber_source_text(const vsc_fiber_def *fibers)
   }
 }
 
+// The law's constants in a line.
+static void print_law(const vsc_material_def *m)
+{
+  vsc_law_constant constants[VSC_MOST_CONSTANTS];
+  const size_t count = vsc_law_constants(m, constants);
+  const vsc_paper_def *p = &m->paper;
+  if (m->law == VSC_LAW_SPRINGS)
+    printf("springs, axial %g, %g, %g, angular %g, %g, %g kPa", m->axial[0], m->axial[1], m->axial[2],
+           m->angular[0], m->angular[1], m->angular[2]);
+  else if (m->law == VSC_LAW_PAPER)
+    printf("law paper, axial %g, %g, %g mN/mm, angular %g, %g, %g mN", p->axial[0], p->axial[1],
+           p->axial[2], p->angular[0], p->angular[1], p->angular[2]);
+  else if (m->law == VSC_LAW_CLASSICAL)
+    printf("law classical, %g mN/mm", m->classical.stiffness);
+  const int law = count > 0 ? (int)strcspn(constants[0].key, ".") : 0;
+  if (count > 0) printf("law %.*s", law, constants[0].key);
+  for (size_t k = 0; k < count; k++)
+    printf(", %s %g%s%s", constants[k].key + law + 1, constants[k].value,
+           constants[k].unit[0] != '\0' ? " " : "", constants[k].unit);
+}
+
 static vsc_status info_scene(const char *file, vsc_error *error)
 {
   vsc_scene *scene = NULL;
@@ -214,13 +240,14 @@ static vsc_status info_scene(const char *file, vsc_error *error)
   const vsc_definition *definition = &scene->definition;
   printf("%s: a scene\n", file);
   printf("  mesh                   %s, %g mm per unit\n", scene->mesh_file, scene->mesh_unit);
-  printf("  fibres                 %s %s\n", fiber_source_text(&scene->fibers),
-         scene->fibers.source == VSC_FIBER_MAP ? scene->fibers.map.file : "");
+  const bool map = scene->fibers.source == VSC_FIBER_MAP;
+  printf("  fibres                 %s%s%s\n", fiber_source_text(&scene->fibers), map ? " " : "",
+         map ? scene->fibers.map.file : "");
   for (size_t m = 0; m < definition->material_count; m++) {
     const vsc_material_def *material = &definition->materials[m];
-    printf("  material               %s: axial %g, %g, %g kPa, %s\n", material->name,
-           material->axial[0], material->axial[1], material->axial[2],
-           material->active.kind == VSC_ACTIVE_NONE ? "passive" : "active");
+    printf("  material               %s: ", material->name);
+    print_law(material);
+    puts(material->active.kind == VSC_ACTIVE_NONE ? "; passive" : "; active");
   }
   for (size_t s = 0; s < definition->surface_count; s++)
     printf("  surface                %s\n", definition->surfaces[s].name);
@@ -253,7 +280,7 @@ static vsc_status info(const char *file, vsc_error *error)
                                     {"h5", info_checkpoint}, {"hdf5", info_checkpoint},
                                     {"yaml", info_scene},    {"yml", info_scene}};
   for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++)
-    if (strcmp(extension(file), kinds[k].extension) == 0) return kinds[k].print(file, error);
+    if (strcasecmp(extension(file), kinds[k].extension) == 0) return kinds[k].print(file, error);
   return vsc_fail(error, VSC_INPUT, "%s: known kinds of files end in .vtu .vtk .vti .pvd .h5 .yaml",
                   file);
 }

@@ -1,31 +1,45 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/results.h"
 
-#include <glob.h>
+#include <dirent.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
+static bool is_series(const char *name)
+{
+  const size_t length = strlen(name);
+  return name[0] != '.' && length > 4 && strcmp(name + length - 4, ".pvd") == 0;
+}
+
+// How many series the folder has; the name of one of them.
+static size_t count_series(const char *folder, char name[VSC_RESULT_PATH])
+{
+  size_t count = 0;
+  DIR *stream = opendir(folder);
+  if (stream == NULL) return 0;
+  for (const struct dirent *entry; (entry = readdir(stream)) != NULL;)
+    if (is_series(entry->d_name) && count++ == 0) snprintf(name, VSC_RESULT_PATH, "%s", entry->d_name);
+  closedir(stream);
+  return count;
+}
+
 static vsc_status find_series(const char *folder, char pvd[VSC_RESULT_PATH], vsc_error *error)
 {
-  char pattern[VSC_RESULT_PATH];
+  char name[VSC_RESULT_PATH];
   size_t length = strlen(folder);
   while (length > 1 && folder[length - 1] == '/') length--;
-  if (length + 16 > VSC_RESULT_PATH) return vsc_fail(error, VSC_INPUT, "the folder's name is too long");
-  snprintf(pattern, sizeof pattern, "%.*s/*.pvd", (int)length, folder);
-  glob_t found = {0};
-  if (glob(pattern, 0, NULL, &found) != 0)
+  const size_t count = count_series(folder, name);
+  if (count == 0)
     return vsc_fail(error, VSC_INPUT,
                     "%s: there is no series (*.pvd); is this a folder that `viscera run` made?",
                     folder);
-  vsc_status status = VSC_OK;
-  if (found.gl_pathc > 1)
-    status = vsc_fail(error, VSC_INPUT, "%s: there are %zu series (*.pvd), expected one", folder,
-                      found.gl_pathc);
-  else
-    snprintf(pvd, VSC_RESULT_PATH, "%s", found.gl_pathv[0]);
-  globfree(&found);
-  return status;
+  if (count > 1)
+    return vsc_fail(error, VSC_INPUT, "%s: there are %zu series (*.pvd), expected one", folder, count);
+  const int used = snprintf(pvd, VSC_RESULT_PATH, "%.*s/%s", (int)length, folder, name);
+  if (used < VSC_RESULT_PATH) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT, "the folder's name is too long");
 }
 
 vsc_status vsc_results_open(const char *folder, vsc_results *results, vsc_error *error)

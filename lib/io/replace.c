@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static vsc_status fail_to_write(const char *file, int reason, vsc_error *error)
@@ -49,4 +50,27 @@ vsc_status vsc_replace_whole(const char *file, const void *bytes, size_t size, b
   if (status != VSC_OK) return status;
   fwrite(bytes, 1, size, replacement.stream);
   return vsc_replace_end(&replacement, durable, error);
+}
+
+FILE *vsc_replace_open(const char *file, char temporary[VSC_FILE_NAME], vsc_error *error)
+{
+  struct stat facts;
+  temporary[0] = '\0';
+  const bool aside = stat(file, &facts) != 0 || S_ISREG(facts.st_mode);
+  if (aside && vsc_replace_begin(file, temporary, error) != VSC_OK) return NULL;
+  FILE *stream = fopen(aside ? temporary : file, "w");
+  if (stream == NULL)
+    vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s: choose another file", file, strerror(errno));
+  return stream;
+}
+
+vsc_status vsc_replace_close(FILE *stream, const char *file, const char *temporary, vsc_error *error)
+{
+  const bool bad = ferror(stream) != 0, aside = temporary[0] != '\0';
+  if (fclose(stream) == 0 && !bad)
+    return aside ? vsc_replace_end(file, temporary, false, error) : VSC_OK;
+  const int reason = errno;
+  if (aside) vsc_replace_cancel(temporary);
+  return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s: choose another folder", file,
+                  strerror(reason));
 }

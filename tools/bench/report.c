@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/bench/report.h"
 
-#include <errno.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/mem.h"
 #include "base/text.h"
+#include "io/replace.h"
 #include "tools/bench/curves.h"
 
 vsc_bench_verdict vsc_bench_judge(const vsc_bench_row *row)
@@ -133,20 +133,12 @@ void vsc_bench_print(const vsc_bench_row *row)
 
 // ---- for programs
 
-static FILE *open_file(const char *folder, const char *name, char *file, size_t size,
-                       vsc_error *error)
-{
-  snprintf(file, size, "%s/%s", folder, name);
-  FILE *stream = fopen(file, "w");
-  if (stream == NULL) vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", file, strerror(errno));
-  return stream;
-}
-
 vsc_status vsc_bench_write_csv(const vsc_bench_report *report, const char *folder, vsc_error *error)
 {
-  char file[4096];
-  FILE *stream = open_file(folder, "accuracy.csv", file, sizeof file, error);
-  if (stream == NULL) return VSC_SYSTEM;
+  char file[VSC_FILE_NAME], temporary[VSC_FILE_NAME];
+  snprintf(file, sizeof file, "%s/accuracy.csv", folder);
+  FILE *stream = vsc_replace_open(file, temporary, error);
+  if (stream == NULL) return error->status;
   fputs("case,problem,variant,kind,elements,nodes,unknowns,cpu_seconds,megabytes,newton_iterations,"
         "steps,quantity,unit,value,reference,target_percent,target_within,verdict,remark\n",
         stream);
@@ -167,6 +159,5 @@ vsc_status vsc_bench_write_csv(const vsc_bench_report *report, const char *folde
     for (const char *c = row->failure; *c != '\0'; c++) fputc(*c == '"' ? '\'' : *c, stream);
     fprintf(stream, "%s\"\n", row->skipped ? "skipped: no reference curve" : "");
   }
-  if (fclose(stream) == 0) return VSC_OK;
-  return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", file, strerror(errno));
+  return vsc_replace_close(stream, file, temporary, error);
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page: for each problem a table, pictures, and how errors fall with the number of unknowns.
-#include <errno.h>
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "io/replace.h"
 #include "tools/bench/report.h"
 
 static const char head[] =
@@ -189,11 +189,10 @@ static void put_graphs(FILE *page, const vsc_bench_report *report, size_t first)
 
 vsc_status vsc_bench_write_page(const vsc_bench_report *report, const char *folder, vsc_error *error)
 {
-  char file[4096], picture[4096];
+  char file[VSC_FILE_NAME], picture[VSC_FILE_NAME], temporary[VSC_FILE_NAME];
   snprintf(file, sizeof file, "%s/index.html", folder);
-  FILE *page = fopen(file, "w");
-  if (page == NULL)
-    return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", file, strerror(errno));
+  FILE *page = vsc_replace_open(file, temporary, error);
+  if (page == NULL) return error->status;
   fputs(head, page);
   for (size_t k = 0; k < report->count; k++) {
     if (k > 0 && is_of(&report->rows[k], &report->rows[k - 1])) continue;
@@ -206,6 +205,5 @@ vsc_status vsc_bench_write_page(const vsc_bench_report *report, const char *fold
       fprintf(page, "<p><img src=\"%s.png\" alt=\"%s\"></p>\n", problem->name, problem->title);
   }
   fputs("</body></html>\n", page);
-  if (fclose(page) == 0) return VSC_OK;
-  return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", file, strerror(errno));
+  return vsc_replace_close(page, file, temporary, error);
 }

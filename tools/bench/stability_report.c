@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/bench/stability_report.h"
 
-#include <errno.h>
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -9,6 +8,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "io/replace.h"
 
 static void write_text(FILE *file, const char *text)
 {
@@ -17,10 +17,10 @@ static void write_text(FILE *file, const char *text)
 
 vsc_status vsc_stability_write(const vsc_stability_row *rows, size_t count, const char *folder, vsc_error *error)
 {
-  char name[PATH_MAX];
+  char name[PATH_MAX], temporary[VSC_FILE_NAME];
   snprintf(name, sizeof name, "%.4000s/stability.csv", folder);
-  FILE *file = fopen(name, "w");
-  if (file == NULL) return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", name, strerror(errno));
+  FILE *file = vsc_replace_open(name, temporary, error);
+  if (file == NULL) return error->status;
   fputs("stress,law,element,method,outcome,exit_code,balance_error,J_min,J_max,inverted_at_end,repeated,steps,"
         "cpu_seconds,estimated_step_ms,true_step_ms,growth_below,growth_above,message\n", file);
   for (size_t k = 0; k < count; k++) {
@@ -33,8 +33,7 @@ vsc_status vsc_stability_write(const vsc_stability_row *rows, size_t count, cons
     write_text(file, v->why);
     fputs("\"\n", file);
   }
-  if (fclose(file) == 0) return VSC_OK;
-  return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", name, strerror(errno));
+  return vsc_replace_close(file, name, temporary, error);
 }
 
 // ---- counts

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "io/replace.h"
 #include "tools/bench/machine.h"
 #include "tools/bench/specimen.h"
 
@@ -29,7 +30,9 @@ static const char help[] =
 typedef struct wish {
   long elements;
   bool large;
-  FILE *csv;  // or NULL
+  const char *csv_name;  // or NULL
+  FILE *csv;             // or NULL
+  char temporary[VSC_FILE_NAME];  // where it is written until it is whole
 } wish;
 
 // Operations: additions, multiplications, divisions and roots on doubles in the kernels' machine code. Bytes:
@@ -58,6 +61,15 @@ static const vsc_specimen specimens[] = {
 };
 enum { SPECIMENS = sizeof specimens / sizeof specimens[0], LARGE_SPECIMENS = 4 };
 
+static bool open_csv(wish *wish)
+{
+  vsc_error error;
+  if (wish->csv_name == NULL) return true;
+  wish->csv = vsc_replace_open(wish->csv_name, wish->temporary, &error);
+  if (wish->csv == NULL) fprintf(stderr, "viscera bench: --csv %s\n", error.text);
+  return wish->csv != NULL;
+}
+
 static bool read_options(int argc, char **argv, wish *wish, int *code)
 {
   static const struct option options[] = {{"elements", required_argument, NULL, 'n'},
@@ -77,10 +89,7 @@ static bool read_options(int argc, char **argv, wish *wish, int *code)
     } else if (c == 'l') {
       wish->large = true;
     } else if (c == 'c') {
-      wish->csv = fopen(optarg, "w");
-      if (wish->csv != NULL) continue;
-      fprintf(stderr, "viscera bench: --csv %s: cannot be written\n", optarg);
-      return false;
+      wish->csv_name = optarg;
     } else if (c == 'h') {
       *code = fputs(help, stdout) < 0 ? 4 : 0;
       return false;
@@ -88,14 +97,19 @@ static bool read_options(int argc, char **argv, wish *wish, int *code)
       return false;
     }
   }
-  return true;
+  return open_csv(wish);
 }
 
-// What ends a section: its error told, its file closed.
-static int finish(wish *wish, vsc_status status, const vsc_error *error)
+// What ends a section: its file closed, or removed when the section failed, its error told.
+static int finish(wish *wish, vsc_status status, vsc_error *error)
 {
+  if (wish->csv != NULL && status == VSC_OK) {
+    status = vsc_replace_close(wish->csv, wish->csv_name, wish->temporary, error);
+  } else if (wish->csv != NULL) {
+    fclose(wish->csv);
+    vsc_replace_cancel(wish->temporary);
+  }
   if (status != VSC_OK) fprintf(stderr, "viscera: %s\n", error->text);
-  if (wish->csv != NULL && fclose(wish->csv) != 0 && status == VSC_OK) return 4;
   return (int)status;
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/plot/ink.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
+#include "io/replace.h"
 #include "tools/plot/view.h"
 
 const double VSC_INK[3] = {0.20, 0.20, 0.22}, VSC_FAINT[3] = {0.45, 0.45, 0.48};
@@ -74,13 +75,20 @@ void vsc_draw_bar(cairo_t *cairo, double x, double y, double width, double low, 
   vsc_write_text(cairo, x + width / 2, y - 9, 14, VSC_INK, 0.5, title);
 }
 
+vsc_status vsc_check_png(const char *file, vsc_error *error)
+{
+  const size_t length = strlen(file);
+  if (length > 4 && strcasecmp(file + length - 4, ".png") == 0) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT, "--output %s: pictures are PNG: give a name that ends in .png", file);
+}
+
 vsc_status vsc_write_png(cairo_surface_t *surface, const char *file, vsc_error *error)
 {
-  char part[4096];
-  snprintf(part, sizeof part, "%s.part", file);
-  const cairo_status_t status = cairo_surface_write_to_png(surface, part);
-  if (status != CAIRO_STATUS_SUCCESS)
-    return vsc_fail(error, VSC_SYSTEM, "%s: %s", file, cairo_status_to_string(status));
-  if (rename(part, file) != 0) return vsc_fail(error, VSC_SYSTEM, "%s: %s", file, strerror(errno));
-  return VSC_OK;
+  char temporary[VSC_FILE_NAME];
+  const vsc_status begun = vsc_replace_begin(file, temporary, error);
+  if (begun != VSC_OK) return begun;
+  const cairo_status_t status = cairo_surface_write_to_png(surface, temporary);
+  if (status == CAIRO_STATUS_SUCCESS) return vsc_replace_end(file, temporary, false, error);
+  vsc_replace_cancel(temporary);
+  return vsc_fail(error, VSC_SYSTEM, "%s: %s", file, cairo_status_to_string(status));
 }

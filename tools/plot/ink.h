@@ -25,7 +25,10 @@ void vsc_draw_scale(cairo_t *cairo, double x, double y, double scale);
 void vsc_draw_bar(cairo_t *cairo, double x, double y, double width, double low, double high,
                   const char *title);
 
-// Writes a PNG by way of a temporary name; VSC_SYSTEM when it cannot.
+// VSC_INPUT for a picture's name that does not end in .png.
+vsc_status vsc_check_png(const char *file, vsc_error *error);
+
+// Writes a PNG by way of a temporary name, of which nothing is left when it cannot: VSC_SYSTEM.
 vsc_status vsc_write_png(cairo_surface_t *surface, const char *file, vsc_error *error);
 
 #endif

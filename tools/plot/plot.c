@@ -9,6 +9,7 @@
 
 #include "io/vtk.h"
 #include "tools/plot/errors.h"
+#include "tools/plot/ink.h"
 #include "tools/plot/outcomes.h"
 #include "tools/plot/page.h"
 #include "tools/plot/polar.h"
@@ -35,7 +36,7 @@ static void print_help(void)
       "Draws what a simulation left in DIR (signals.csv, one .pvd series and its frames) into\n"
       "DIR/beat.png: cavity volume, wall volume and active tension against time, and the tissue\n"
       "at rest and where the first cavity is smallest, cut open along its long axis.\n\n"
-      "  -o, --output FILE  the PNG to write\n"
+      "  -o, --output FILE  the PNG to write, NAME.png\n"
       "      --at TIME      show the frame nearest to this time, in seconds\n"
       "      --axis X,Y,Z   the long axis from apex to base, upwards in the picture (0,0,1)\n"
       "      --from X,Y,Z   the direction from which to look, across the axis (widest view)\n"
@@ -166,6 +167,7 @@ static vsc_status read_option(int option, request *wish, vsc_error *error)
 {
   switch (option) {
     case 'o':
+      if (vsc_check_png(optarg, error) != VSC_OK) return error->status;
       if (snprintf(wish->output, sizeof wish->output, "%s", optarg) < VSC_RESULT_PATH - 8) return VSC_OK;
       return vsc_fail(error, VSC_INPUT, "--output: the name is too long");
     case 't':

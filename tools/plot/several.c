@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "tools/plot/curves.h"
+#include "tools/plot/ink.h"
 #include "tools/plot/panels.h"
 #include "tools/plot/several.h"
 
@@ -146,8 +147,10 @@ int vsc_plot_several(int argc, char **argv)
   }
   read_items(&wish, argc - optind, argv + optind);
   vsc_error error;
-  const vsc_status status = view ? vsc_panels_draw(&wish.panels, wish.output, &error)
-                                 : vsc_curves_draw(&wish.curves, wish.output, &error);
+  vsc_status status = vsc_check_png(wish.output, &error);
+  if (status == VSC_OK)
+    status = view ? vsc_panels_draw(&wish.panels, wish.output, &error)
+                  : vsc_curves_draw(&wish.curves, wish.output, &error);
   if (status != VSC_OK) fprintf(stderr, "viscera: plot: %s\n", error.text);
   return status;
 }

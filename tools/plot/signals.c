@@ -2,11 +2,19 @@
 #include "tools/plot/signals.h"
 
 #include <errno.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/mem.h"
+
+// Whether a simulation writes the file: a last line without its end may be half a line.
+static bool may_grow(const char *file)
+{
+  const char *slash = strrchr(file, '/');
+  return strcmp(slash != NULL ? slash + 1 : file, "signals.csv") == 0;
+}
 
 // The whole file as one text, zero-terminated; to be released with vsc_free.
 static vsc_status read_text(const char *file, char **text, vsc_error *error)
@@ -23,6 +31,7 @@ static vsc_status read_text(const char *file, char **text, vsc_error *error)
     room = 2 * room + 65536;
     used += fread(*text + used, 1, room - used - 1, stream);
   } while (used == room - 1);
+  if (status == VSC_OK && used > 0 && (*text)[used - 1] != '\n' && !may_grow(file)) (*text)[used] = '\n';
   if (status == VSC_OK && ferror(stream))
     status = vsc_fail(error, VSC_INPUT, "%s: can't be read", file);
   fclose(stream);

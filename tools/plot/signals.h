@@ -16,9 +16,9 @@ typedef struct vsc_signals {
   double *values;           // columns x rows: one column after the other
 } vsc_signals;
 
-// Reads a comma-separated file whose first line is `name [unit],name [unit],...`. A last line
-// without its end (of a simulation that still runs) is left out. VSC_INPUT with file and line for
-// anything else that is wrong. The caller owns *signals.
+// Reads a comma-separated file whose first line is `name [unit],name [unit],...`. The last line may lack
+// its end; in a file called signals.csv, which a simulation may still write, it is then left out.
+// VSC_INPUT with file and line for anything that is wrong. The caller owns *signals.
 vsc_status vsc_signals_read(const char *file, vsc_signals **signals, vsc_error *error);
 
 // The values (rows of them, owned by the table) of the column of that name, or NULL.
