@@ -19,15 +19,14 @@ static void assert_text(const char *file, const char *text)
 static void a_text_replaces_another(void **state)
 {
   (void)state;
-  char temporary[VSC_FILE_NAME];
+  vsc_replacement text;
   const char *file = scratch_text("table.csv", "old\n");
-  FILE *stream = vsc_replace_open(file, temporary, NULL);
-  assert_non_null(stream);
-  fputs("new\n", stream);
+  assert_int_equal(vsc_replace_begin(file, &text, NULL), VSC_OK);
+  fputs("new\n", text.stream);
   assert_text(file, "old\n");
-  assert_int_equal(vsc_replace_close(stream, file, temporary, NULL), VSC_OK);
+  assert_int_equal(vsc_replace_end(&text, false, NULL), VSC_OK);
   assert_text(file, "new\n");
-  assert_int_not_equal(access(temporary, F_OK), 0);
+  assert_int_not_equal(access(text.temporary, F_OK), 0);
 }
 
 // Files may have 1000 bytes, which a stream's buffer only learns when it is emptied.
@@ -35,7 +34,7 @@ static void what_cannot_be_written_leaves_nothing(void **state)
 {
   (void)state;
   vsc_error error;
-  char temporary[VSC_FILE_NAME];
+  vsc_replacement text;
   struct rlimit before, little;
   const char *file = scratch_text("table.csv", "old\n");
   assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -43,16 +42,15 @@ static void what_cannot_be_written_leaves_nothing(void **state)
   signal(SIGXFSZ, SIG_IGN);
   assert_int_equal(setrlimit(RLIMIT_FSIZE, &little), 0);
   for (int lines = 200; lines <= 20000; lines *= 100) {
-    FILE *stream = vsc_replace_open(file, temporary, &error);
-    assert_non_null(stream);
-    for (int k = 0; k < lines; k++) fputs("0123456789\n", stream);
-    assert_int_equal(vsc_replace_close(stream, file, temporary, &error), VSC_SYSTEM);
+    assert_int_equal(vsc_replace_begin(file, &text, &error), VSC_OK);
+    for (int k = 0; k < lines; k++) fputs("0123456789\n", text.stream);
+    assert_int_equal(vsc_replace_end(&text, false, &error), VSC_SYSTEM);
     assert_non_null(strstr(error.text, "cannot be written"));
     assert_text(file, "old\n");
-    assert_int_not_equal(access(temporary, F_OK), 0);
+    assert_int_not_equal(access(text.temporary, F_OK), 0);
   }
   assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
-  assert_null(vsc_replace_open("/nowhere/table.csv", temporary, &error));
+  assert_int_equal(vsc_replace_begin("/nowhere/table.csv", &text, &error), VSC_SYSTEM);
   assert_int_equal(error.status, VSC_SYSTEM);
 }
 
@@ -62,15 +60,13 @@ static void devices_are_written_to(void **state)
   (void)state;
   vsc_error error;
   struct stat facts;
-  char temporary[VSC_FILE_NAME];
-  FILE *stream = vsc_replace_open("/dev/null", temporary, &error);
-  assert_non_null(stream);
-  fputs("lost\n", stream);
-  assert_int_equal(vsc_replace_close(stream, "/dev/null", temporary, &error), VSC_OK);
-  stream = vsc_replace_open("/dev/full", temporary, &error);
-  assert_non_null(stream);
-  fputs("lost\n", stream);
-  assert_int_equal(vsc_replace_close(stream, "/dev/full", temporary, &error), VSC_SYSTEM);
+  vsc_replacement text;
+  assert_int_equal(vsc_replace_begin("/dev/null", &text, &error), VSC_OK);
+  fputs("lost\n", text.stream);
+  assert_int_equal(vsc_replace_end(&text, false, &error), VSC_OK);
+  assert_int_equal(vsc_replace_begin("/dev/full", &text, &error), VSC_OK);
+  fputs("lost\n", text.stream);
+  assert_int_equal(vsc_replace_end(&text, false, &error), VSC_SYSTEM);
   assert_int_equal(stat("/dev/full", &facts), 0);
   assert_true(S_ISCHR(facts.st_mode));
 }

@@ -163,11 +163,11 @@ static void write_point(FILE *stream, const vsc_answer *answer, int plane, int d
 
 vsc_status vsc_write_polar(const char *file, const vsc_answer *answer, vsc_error *error)
 {
-  char temporary[VSC_FILE_NAME];
-  FILE *stream = vsc_replace_open(file, temporary, error);
-  if (stream == NULL) return error->status;
-  fputs("plane,angle [degrees],wanted [kPa],springs [kPa],measured [kPa]\n", stream);
+  vsc_replacement table;
+  const vsc_status status = vsc_replace_begin(file, &table, error);
+  if (status != VSC_OK) return status;
+  fputs("plane,angle [degrees],wanted [kPa],springs [kPa],measured [kPa]\n", table.stream);
   for (int plane = 0; plane < 3; plane++)
-    for (int degrees = 0; degrees <= 360; degrees++) write_point(stream, answer, plane, degrees);
-  return vsc_replace_close(stream, file, temporary, error);
+    for (int degrees = 0; degrees <= 360; degrees++) write_point(table.stream, answer, plane, degrees);
+  return vsc_replace_end(&table, false, error);
 }

@@ -14,13 +14,16 @@ static vsc_status fail_to_write(const char *file, int reason, vsc_error *error)
 
 vsc_status vsc_replace_begin(const char *file, vsc_replacement *replacement, vsc_error *error)
 {
+  struct stat facts;
+  const bool itself = stat(file, &facts) == 0 && !S_ISREG(facts.st_mode);
   const int length = snprintf(replacement->temporary, VSC_FILE_NAME, "%s.tmp", file);
   if (length < 0 || length >= VSC_FILE_NAME)
     return vsc_fail(error, VSC_INPUT, "%.200s...: the file name is too long: choose a shorter one",
                     file);
   snprintf(replacement->file, VSC_FILE_NAME, "%s", file);
+  if (itself) replacement->temporary[0] = '\0';
   errno = 0;  // from here on it is that of writing
-  replacement->stream = fopen(replacement->temporary, "wbe");
+  replacement->stream = fopen(itself ? file : replacement->temporary, "wbe");
   return replacement->stream != NULL ? VSC_OK : fail_to_write(file, errno, error);
 }
 
@@ -31,16 +34,17 @@ vsc_status vsc_replace_end(vsc_replacement *replacement, bool durable, vsc_error
   if (good && durable) good = fsync(fileno(stream)) == 0;
   int reason = errno;
   if (fclose(stream) != 0 && good) good = false, reason = errno;
-  if (good && rename(replacement->temporary, replacement->file) == 0) return VSC_OK;
+  const bool itself = replacement->temporary[0] == '\0';
+  if (good && (itself || rename(replacement->temporary, replacement->file) == 0)) return VSC_OK;
   if (good) reason = errno;
-  unlink(replacement->temporary);
+  if (!itself) unlink(replacement->temporary);
   return fail_to_write(replacement->file, reason, error);
 }
 
 void vsc_replace_cancel(vsc_replacement *replacement)
 {
   fclose(replacement->stream);
-  unlink(replacement->temporary);
+  if (replacement->temporary[0] != '\0') unlink(replacement->temporary);
 }
 
 vsc_status vsc_replace_whole(const char *file, const void *bytes, size_t size, bool durable, vsc_error *error)
@@ -50,27 +54,4 @@ vsc_status vsc_replace_whole(const char *file, const void *bytes, size_t size, b
   if (status != VSC_OK) return status;
   fwrite(bytes, 1, size, replacement.stream);
   return vsc_replace_end(&replacement, durable, error);
-}
-
-FILE *vsc_replace_open(const char *file, char temporary[VSC_FILE_NAME], vsc_error *error)
-{
-  struct stat facts;
-  temporary[0] = '\0';
-  const bool aside = stat(file, &facts) != 0 || S_ISREG(facts.st_mode);
-  if (aside && vsc_replace_begin(file, temporary, error) != VSC_OK) return NULL;
-  FILE *stream = fopen(aside ? temporary : file, "w");
-  if (stream == NULL)
-    vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s: choose another file", file, strerror(errno));
-  return stream;
-}
-
-vsc_status vsc_replace_close(FILE *stream, const char *file, const char *temporary, vsc_error *error)
-{
-  const bool bad = ferror(stream) != 0, aside = temporary[0] != '\0';
-  if (fclose(stream) == 0 && !bad)
-    return aside ? vsc_replace_end(file, temporary, false, error) : VSC_OK;
-  const int reason = errno;
-  if (aside) vsc_replace_cancel(temporary);
-  return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s: choose another folder", file,
-                  strerror(reason));
 }

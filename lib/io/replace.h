@@ -17,7 +17,8 @@ typedef struct vsc_replacement {
   FILE *stream;  // to write to
 } vsc_replacement;
 
-// Opens a stream for the new content of `file`. VSC_SYSTEM with the reason (missing folder, no permission, full
+// Opens a stream for the new content of `file`. What is there and no file, a device or a pipe, is written to itself;
+// `temporary` is then empty. VSC_SYSTEM with the reason (missing folder, no permission, full
 // disk), VSC_INPUT when the name is too long; then nothing is left.
 vsc_status vsc_replace_begin(const char *file, vsc_replacement *replacement, vsc_error *error);
 
@@ -31,14 +32,5 @@ void vsc_replace_cancel(vsc_replacement *replacement);
 
 // Begins and ends with `size` bytes.
 vsc_status vsc_replace_whole(const char *file, const void *bytes, size_t size, bool durable, vsc_error *error);
-
-// The same for a text: opens a stream to write the new content of `file` to. What is there and no file, a
-// device or a pipe, is written to itself; `temporary` is then empty. NULL, with *error of status VSC_SYSTEM
-// or (a name too long) VSC_INPUT, when that fails.
-FILE *vsc_replace_open(const char *file, char temporary[VSC_FILE_NAME], vsc_error *error);
-
-// Closes that stream and gives the content its name; VSC_SYSTEM when not all could be written: what was
-// there before then stays.
-vsc_status vsc_replace_close(FILE *stream, const char *file, const char *temporary, vsc_error *error);
 
 #endif

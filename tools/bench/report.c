@@ -135,10 +135,12 @@ void vsc_bench_print(const vsc_bench_row *row)
 
 vsc_status vsc_bench_write_csv(const vsc_bench_report *report, const char *folder, vsc_error *error)
 {
-  char file[VSC_FILE_NAME], temporary[VSC_FILE_NAME];
+  char file[VSC_FILE_NAME];
+  vsc_replacement table;
   snprintf(file, sizeof file, "%s/accuracy.csv", folder);
-  FILE *stream = vsc_replace_open(file, temporary, error);
-  if (stream == NULL) return error->status;
+  const vsc_status status = vsc_replace_begin(file, &table, error);
+  if (status != VSC_OK) return status;
+  FILE *stream = table.stream;
   fputs("case,problem,variant,kind,elements,nodes,unknowns,cpu_seconds,megabytes,newton_iterations,"
         "steps,quantity,unit,value,reference,target_percent,target_within,verdict,remark\n",
         stream);
@@ -159,5 +161,5 @@ vsc_status vsc_bench_write_csv(const vsc_bench_report *report, const char *folde
     for (const char *c = row->failure; *c != '\0'; c++) fputc(*c == '"' ? '\'' : *c, stream);
     fprintf(stream, "%s\"\n", row->skipped ? "skipped: no reference curve" : "");
   }
-  return vsc_replace_close(stream, file, temporary, error);
+  return vsc_replace_end(&table, false, error);
 }

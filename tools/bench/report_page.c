@@ -189,10 +189,12 @@ static void put_graphs(FILE *page, const vsc_bench_report *report, size_t first)
 
 vsc_status vsc_bench_write_page(const vsc_bench_report *report, const char *folder, vsc_error *error)
 {
-  char file[VSC_FILE_NAME], picture[VSC_FILE_NAME], temporary[VSC_FILE_NAME];
+  char file[VSC_FILE_NAME], picture[VSC_FILE_NAME];
+  vsc_replacement written;
   snprintf(file, sizeof file, "%s/index.html", folder);
-  FILE *page = vsc_replace_open(file, temporary, error);
-  if (page == NULL) return error->status;
+  const vsc_status status = vsc_replace_begin(file, &written, error);
+  if (status != VSC_OK) return status;
+  FILE *page = written.stream;
   fputs(head, page);
   for (size_t k = 0; k < report->count; k++) {
     if (k > 0 && is_of(&report->rows[k], &report->rows[k - 1])) continue;
@@ -205,5 +207,5 @@ vsc_status vsc_bench_write_page(const vsc_bench_report *report, const char *fold
       fprintf(page, "<p><img src=\"%s.png\" alt=\"%s\"></p>\n", problem->name, problem->title);
   }
   fputs("</body></html>\n", page);
-  return vsc_replace_close(page, file, temporary, error);
+  return vsc_replace_end(&written, false, error);
 }

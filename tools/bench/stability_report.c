@@ -17,10 +17,12 @@ static void write_text(FILE *file, const char *text)
 
 vsc_status vsc_stability_write(const vsc_stability_row *rows, size_t count, const char *folder, vsc_error *error)
 {
-  char name[PATH_MAX], temporary[VSC_FILE_NAME];
+  char name[PATH_MAX];
+  vsc_replacement table;
   snprintf(name, sizeof name, "%.4000s/stability.csv", folder);
-  FILE *file = vsc_replace_open(name, temporary, error);
-  if (file == NULL) return error->status;
+  const vsc_status status = vsc_replace_begin(name, &table, error);
+  if (status != VSC_OK) return status;
+  FILE *file = table.stream;
   fputs("stress,law,element,method,outcome,exit_code,balance_error,J_min,J_max,inverted_at_end,repeated,steps,"
         "cpu_seconds,estimated_step_ms,true_step_ms,growth_below,growth_above,message\n", file);
   for (size_t k = 0; k < count; k++) {
@@ -33,7 +35,7 @@ vsc_status vsc_stability_write(const vsc_stability_row *rows, size_t count, cons
     write_text(file, v->why);
     fputs("\"\n", file);
   }
-  return vsc_replace_close(file, name, temporary, error);
+  return vsc_replace_end(&table, false, error);
 }
 
 // ---- counts

@@ -32,7 +32,7 @@ typedef struct wish {
   bool large;
   const char *csv_name;  // or NULL
   FILE *csv;             // or NULL
-  char temporary[VSC_FILE_NAME];  // where it is written until it is whole
+  vsc_replacement table;  // where it is written until it is whole
 } wish;
 
 // Operations: additions, multiplications, divisions and roots on doubles in the kernels' machine code. Bytes:
@@ -65,8 +65,8 @@ static bool open_csv(wish *wish)
 {
   vsc_error error;
   if (wish->csv_name == NULL) return true;
-  wish->csv = vsc_replace_open(wish->csv_name, wish->temporary, &error);
-  if (wish->csv == NULL) fprintf(stderr, "viscera bench: --csv %s\n", error.text);
+  if (vsc_replace_begin(wish->csv_name, &wish->table, &error) == VSC_OK) wish->csv = wish->table.stream;
+  else fprintf(stderr, "viscera bench: --csv %s\n", error.text);
   return wish->csv != NULL;
 }
 
@@ -104,10 +104,9 @@ static bool read_options(int argc, char **argv, wish *wish, int *code)
 static int finish(wish *wish, vsc_status status, vsc_error *error)
 {
   if (wish->csv != NULL && status == VSC_OK) {
-    status = vsc_replace_close(wish->csv, wish->csv_name, wish->temporary, error);
+    status = vsc_replace_end(&wish->table, false, error);
   } else if (wish->csv != NULL) {
-    fclose(wish->csv);
-    vsc_replace_cancel(wish->temporary);
+    vsc_replace_cancel(&wish->table);
   }
   if (status != VSC_OK) fprintf(stderr, "viscera: %s\n", error->text);
   return (int)status;

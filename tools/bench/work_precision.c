@@ -275,24 +275,25 @@ int vsc_bench_error(int argc, char **argv)
     fprintf(stderr, "viscera bench error: '%s' means nothing here\n", argv[optind]);
     return 2;
   }
-  char file[PATH_MAX], whole[PATH_MAX], temporary[VSC_FILE_NAME];
+  char file[PATH_MAX], whole[PATH_MAX];
+  vsc_replacement table;
   mkdir(wish.output, 0777);
   // names in a scene's settings count from the scene's folder
   if (realpath(wish.output, whole) != NULL) wish.output = whole;
   snprintf(file, sizeof file, "%.4000s/error.csv", wish.output);
   vsc_error error;
-  wish.csv = vsc_replace_open(file, temporary, &error);
-  if (wish.csv == NULL) {
+  if (vsc_replace_begin(file, &table, &error) != VSC_OK) {
     fprintf(stderr, "viscera bench error: %s\n", error.text);
     return 4;
   }
+  wish.csv = table.stream;
   fprintf(wish.csv, "table,series,what,elements,processor seconds a simulated second,percent of the stroke\n");
   vsc_machine_say(stdout);
   vsc_status status = bench_time(&wish, &error);
   if (status == VSC_OK) status = bench_space(&wish, &error);
   if (status != VSC_OK) fprintf(stderr, "viscera: %s\n", error.text);
   // what was measured before a failure is worth hours: it is kept
-  const vsc_status closed = vsc_replace_close(wish.csv, file, temporary, &error);
+  const vsc_status closed = vsc_replace_end(&table, false, &error);
   if (closed != VSC_OK) fprintf(stderr, "viscera: %s\n", error.text);
   if (closed != VSC_OK && status == VSC_OK) return 4;
   if (status == VSC_OK) draw(&wish);

@@ -82,13 +82,18 @@ vsc_status vsc_check_png(const char *file, vsc_error *error)
   return vsc_fail(error, VSC_INPUT, "--output %s: pictures are PNG: give a name that ends in .png", file);
 }
 
+static cairo_status_t write_bytes(void *stream, const unsigned char *bytes, unsigned int count)
+{
+  return fwrite(bytes, 1, count, stream) == count ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
+}
+
 vsc_status vsc_write_png(cairo_surface_t *surface, const char *file, vsc_error *error)
 {
-  char temporary[VSC_FILE_NAME];
-  const vsc_status begun = vsc_replace_begin(file, temporary, error);
+  vsc_replacement picture;
+  const vsc_status begun = vsc_replace_begin(file, &picture, error);
   if (begun != VSC_OK) return begun;
-  const cairo_status_t status = cairo_surface_write_to_png(surface, temporary);
-  if (status == CAIRO_STATUS_SUCCESS) return vsc_replace_end(file, temporary, false, error);
-  vsc_replace_cancel(temporary);
+  const cairo_status_t status = cairo_surface_write_to_png_stream(surface, write_bytes, picture.stream);
+  if (status == CAIRO_STATUS_SUCCESS || status == CAIRO_STATUS_WRITE_ERROR) return vsc_replace_end(&picture, false, error);
+  vsc_replace_cancel(&picture);
   return vsc_fail(error, VSC_SYSTEM, "%s: %s", file, cairo_status_to_string(status));
 }
