@@ -106,6 +106,7 @@ static void every_number_type_is_read(void **state)
   }
   const double pairs[4] = {2, 3, 8, 9.25};
   assert_memory_equal(array_of(&mesh->element_data, "f64", 2)->values, pairs, sizeof pairs);
+  assert_false(array_of(&mesh->element_data, "f64", 2)->single);
   assert_null(vsc_arrays_find(&mesh->element_data, "text"));
   assert_int_equal(mesh->element_data.count, 8);
   const double nodes[8] = {0, -1, 2, 3, 4, 5, 6, 7};
@@ -349,6 +350,7 @@ static void images_read_back(void **state)
   }
   for (int i = 0; i < 9; i++) assert_close(back->direction[i], direction[i], 1e-14, 1e-15);
   const vsc_array *there = array_of(&back->data, "angle", 1);
+  assert_true(there->single);
   assert_memory_equal(there->values, vsc_arrays_find(&image->data, "angle")->values,
                       60 * sizeof(double));
   assert_close(array_of(&back->data, "vector", 3)->values[179], 2.5, 0, 0);

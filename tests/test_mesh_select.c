@@ -191,6 +191,31 @@ static void empty_surfaces_are_refused(void **state)
   assert_null(surface.triangles);
 }
 
+// Of an array in single precision the bounds are rounded as its values are: 0.7 takes what a file calls 0.7.
+static void single_precision_is_compared_as_such(void **state)
+{
+  fixture *f = *state;
+  vsc_array *depth = vsc_arrays_add(&f->mesh->node_data, "depth", 1, f->mesh->node_count);
+  for (size_t i = 0; i < f->mesh->node_count; i++)
+    depth->values[i] = f->mesh->nodes[3 * i + 2] == 2 ? 0.7f : 0.1f;
+  vsc_selector some = {.name = "some", .kind = VSC_SELECT_NODE_ARRAY, .array = "depth", .low = 0.7, .high = 1e300};
+  assert_no_nodes(f, &some, "the array runs from 0.1");
+  depth->single = true;
+  assert_int_equal(count_nodes(f, &some, NULL, 0), 9);
+  some.low = some.high = 0.1;
+  assert_int_equal(count_nodes(f, &some, NULL, 0), 18);
+  some.low = -1e300;
+  some.high = 0.0999999;
+  assert_no_nodes(f, &some, "the array runs from 0.100000001 to 0.69999998");
+  vsc_array *mark = &f->mesh->triangle_data.items[0];
+  vsc_selector base = MARK;
+  for (size_t t = 0; t < mark->tuples; t++) mark->values[t] = (float)(0.1 * mark->values[t]);
+  base.low = base.high = 0.1;
+  assert_no_nodes(f, &base, "no value of array mark");
+  mark->single = true;
+  assert_int_equal(count_triangles(f, &base), 8);
+}
+
 static void short_memory_is_reported(void **state)
 {
   const fixture *f = *state;
@@ -215,6 +240,7 @@ int main(void)
     cmocka_unit_test_setup_teardown(empty_sets_say_what_was_near, set_up, tear_down),
     cmocka_unit_test_setup_teardown(unknown_names_are_refused_with_the_nearest, set_up, tear_down),
     cmocka_unit_test_setup_teardown(empty_surfaces_are_refused, set_up, tear_down),
+    cmocka_unit_test_setup_teardown(single_precision_is_compared_as_such, set_up, tear_down),
     cmocka_unit_test_setup_teardown(short_memory_is_reported, set_up, tear_down),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -126,8 +126,8 @@ static vsc_status add_arrays(vsc_comparison *all, const places *at, const vsc_ar
 // Positions, of meshes compared value by value.
 static vsc_status add_positions(vsc_comparison *all, const places *points, const vsc_mesh *a, const vsc_mesh *b, vsc_error *error)
 {
-  const vsc_array first = {"(positions)", 3, a->node_count, a->nodes};
-  const vsc_array second = {"(positions)", 3, b->node_count, b->nodes};
+  const vsc_array first = {.name = "(positions)", .components = 3, .tuples = a->node_count, .values = a->nodes};
+  const vsc_array second = {.name = "(positions)", .components = 3, .tuples = b->node_count, .values = b->nodes};
   const size_t corners = a->start[a->element_count];
   if (memcmp(a->kinds, b->kinds, a->element_count * sizeof *a->kinds) != 0 ||
       memcmp(a->corners, b->corners, corners * sizeof *a->corners) != 0)

@@ -27,7 +27,8 @@ typedef struct vsc_selector {
   char name[VSC_NAME];   // what supports and loads call it
   vsc_select_kind kind;
   char array[VSC_NAME];  // NODE_ARRAY, TRIANGLE_ARRAY: the array; SURFACE: the surface
-  double low, high;      // NODE_ARRAY, TRIANGLE_ARRAY: values taken, both ends included
+  double low, high;      // NODE_ARRAY, TRIANGLE_ARRAY: values taken, both ends included; of an array in single
+                         // precision both are rounded to that first
   double box_low[3];     // BOX: mm
   double box_high[3];    // BOX: mm
   double point[3];       // PLANE: a point of it, mm
@@ -48,6 +49,9 @@ typedef struct vsc_surface {
   uint32_t *mid;        // count x 3: the nodes in the middle of edges 01, 12, 20; NULL where elements
                         // are linear; owned
 } vsc_surface;
+
+// Whether a selector by array takes a value of the array.
+bool vsc_selector_takes(const vsc_selector *selector, const vsc_array *array, double value);
 
 // The boundary of the mesh: faces that belong to one element, turned outwards, in the order of
 // their elements; of a mesh without elements its triangles as they are. A quadrilateral is cut into

@@ -52,7 +52,7 @@ static vsc_status mark_listed(const vsc_mesh *mesh, const vsc_surface *boundary,
   if (!VSC_NEW(listed, mesh->triangle_count)) return vsc_fail_memory(error, "a surface");
   size_t count = 0;
   for (size_t t = 0; t < mesh->triangle_count; t++)
-    if (array->values[t] >= selector->low && array->values[t] <= selector->high)
+    if (vsc_selector_takes(selector, array, array->values[t]))
       listed[count++] = sorted_corners(mesh->triangles + 3 * t);
   mark_corners(boundary, listed, count, marked);
   vsc_free(listed);
