@@ -21,8 +21,8 @@ typedef enum vsc_select_kind {
 } vsc_select_kind;
 
 // Describes a set of nodes or, read as a surface, the boundary triangles all of whose nodes are in
-// that set (for VSC_SELECT_TRIANGLE_ARRAY: the boundary triangles that the file lists). Of quadratic
-// elements the corners of triangles decide, so that a surface does not depend on the order.
+// that set (for VSC_SELECT_TRIANGLE_ARRAY: the boundary triangles that the file lists, quadrilateral faces cut along
+// either diagonal). Of quadratic elements the corners of triangles decide, so that a surface does not depend on the order.
 typedef struct vsc_selector {
   char name[VSC_NAME];   // what supports and loads call it
   vsc_select_kind kind;
@@ -65,7 +65,8 @@ vsc_status vsc_select_nodes(const vsc_mesh *mesh, const vsc_selector *selector,
                             const vsc_surface *surfaces, size_t surface_count, vsc_node_set *set,
                             vsc_error *error);
 
-// Finds the boundary triangles that `selector` describes; none is an error.
+// Finds the boundary triangles that `selector` describes; none is VSC_INPUT, and so are triangles of a triangle array
+// that are no faces of the boundary.
 vsc_status vsc_select_surface(const vsc_mesh *mesh, const vsc_surface *boundary,
                               const vsc_selector *selector, vsc_surface *surface, vsc_error *error);
 
