@@ -248,6 +248,7 @@ static void arrays_of_the_nodes(void **state)
   vsc_fiber_report report;
   vsc_axes *axes = make(mesh, &definition, &report);
   assert_int_equal(report.invalid, 0);
+  assert_true(report.opposed > 0);  // the first layers turn by more than 10 degrees
   for (size_t e = 0; e < mesh->element_count; e++) {
     double at[3];
     vsc_mesh_element_centre(mesh, e, at);
@@ -312,6 +313,29 @@ static void senses_that_are_meant(void **state)
     }
 }
 
+// Signs by chance, of axes that hardly turn: none of them is opposed to another, and sheets do not count.
+static void signs_by_chance_are_no_opposition(void **state)
+{
+  (void)state;
+  for (int order = 1; order <= 2; order++) {
+    vsc_mesh *mesh = block();
+    vsc_fiber_def definition = from(VSC_FIBER_ARRAYS);
+    vsc_fiber_report report;
+    vsc_error error;
+    double *fibers = vsc_arrays_add(&mesh->node_data, "fiber", 3, mesh->node_count)->values;
+    for (size_t i = 0; i < mesh->node_count; i++) {
+      const double sign = i * 2654435761u >> 7 & 1 ? 1 : -1, angle = 4 * degree * mesh->nodes[3 * i];
+      fibers[3 * i] = sign * cos(angle);
+      fibers[3 * i + 1] = sign * sin(angle);
+    }
+    if (order == 2 && vsc_mesh_raise(&mesh, "block", &error) != VSC_OK) fail_msg("%s", error.text);
+    vsc_axes *axes = make(mesh, &definition, &report);
+    assert_int_equal(report.opposed, 0);
+    vsc_axes_free(axes);
+    vsc_mesh_free(mesh);
+  }
+}
+
 static void map_from_a_file(void **state)
 {
   (void)state;
@@ -352,6 +376,7 @@ int main(void)
       cmocka_unit_test(figure_six),         cmocka_unit_test(random_fibers_fill_the_sphere),
       cmocka_unit_test(arrays_of_the_mesh), cmocka_unit_test(arrays_of_the_nodes),
       cmocka_unit_test(senses_that_are_meant),
+      cmocka_unit_test(signs_by_chance_are_no_opposition),
       cmocka_unit_test(map_from_a_file),
   };
   return cmocka_run_group_tests_name("fibers/fibers", tests, NULL, NULL);

@@ -155,9 +155,9 @@ static void warn_fibers(writer *w, const vsc_problem *problem)
   if (f->constant)
     warn(w, "fibers: the array holds one and the same direction everywhere: perhaps a dummy");
   if (!def->sense_kept && f->opposed > f->elements / 50)
-    warn(w, "fibers: within %.0f %% of the elements the vectors on the nodes differ by more than 90 degrees; taken as axes "
-         "they turn the short way round. Where a rule has made them, and their sense is meant, say "
-         "fibers.arrays.sense: kept; else the mesh is too coarse for them",
+    warn(w, "fibers: within %.0f %% of the elements the vectors on the nodes differ by 90 to 170 degrees; taken as axes "
+         "they turn the short way round, by 10 to 90, as is right where their signs mean nothing. Where a rule has made "
+         "them, and their sense is meant, say fibers.arrays.sense: kept",
          100.0 * (double)f->opposed / (double)f->elements);
   if (f->worst_sheet_angle > 5)
     warn(w, "fibers: sheet and fibre are up to %.0f degrees off a right angle: perhaps dummies",
