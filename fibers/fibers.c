@@ -14,12 +14,22 @@
 
 // ---- From a voxel map
 
+// Whether a list has all arrays that a map names.
+static bool has_map(const vsc_arrays *arrays, const vsc_angle_map_def *map)
+{
+  const char *const names[] = {map->azimuth, map->elevation, map->mask, map->weight};
+  bool all = true;
+  for (int k = 0; k < 4; k++) all = all && (names[k][0] == '\0' || vsc_arrays_find(arrays, names[k]) != NULL);
+  return all;
+}
+
 static vsc_status from_map(const vsc_mesh *mesh, const vsc_angle_map_def *map, vsc_axes *axes,
                            vsc_fiber_report *report, vsc_error *error)
 {
   vsc_image *image = NULL;
   vsc_status status = vsc_vtk_read_image(map->file, map->length_unit, &image, error);
   if (status != VSC_OK) return status;
+  if (!has_map(&image->data, map) && has_map(&image->cell_data, map)) vsc_image_take_cells(image);
   status = vsc_fibers_sample(mesh, image, map, axes, report, error);
   vsc_image_free(image);
   return status;

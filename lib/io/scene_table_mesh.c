@@ -83,7 +83,7 @@ static const vsc_word sources[] = {
 
 static const vsc_row map_rows[] = {
     {"file", .kind = VSC_ROW_PATH, AT(vsc_angle_map_def, file), .text = "angles.vti",
-     .meaning = "image of the two angles; relative to this scene's folder"},
+     .meaning = "image of the two angles, on its points or its cells; relative to this scene's folder"},
     {"length_unit", UNIT(vsc_angle_map_def, length_unit, VSC_LENGTH), .text = "mm",
      .meaning = "of its origin and spacing"},
     {"azimuth", NAME(vsc_angle_map_def, azimuth), .text = "azimuth",
