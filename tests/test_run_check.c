@@ -177,16 +177,16 @@ static void test_warnings_about_the_setting(void **state)
 }
 
 // The block with cell arrays: one direction everywhere; one for each element; the same with holes;
-// sheets at 45 degrees to the second.
+// sheets at 45 degrees to the second; zeros.
 static void write_fibres(void)
 {
-  enum { SAME, TURNING, HOLES, SLANTED, KINDS };
+  enum { SAME, TURNING, HOLES, SLANTED, NOTHING, KINDS };
   vsc_mesh *mesh = block_for_scene();
   double *v[KINDS];
   for (int k = 0; k < KINDS; k++) v[k] = calloc(3 * mesh->element_count, sizeof *v[k]);
   for (size_t t = 0; t < mesh->element_count; t++) {
     const double angle[KINDS] = {0, (double)t, (double)t, (double)t + M_PI / 4};
-    for (int k = 0; k < KINDS; k++) {
+    for (int k = 0; k < NOTHING; k++) {
       if (k == HOLES && t % 20 == 0) continue;
       v[k][3 * t] = k == HOLES && t % 20 == 10 ? NAN : cos(angle[k]);
       v[k][3 * t + 1] = sin(angle[k]);
@@ -199,10 +199,11 @@ static void write_fibres(void)
       {"same", 3, v[SAME], VSC_ON_ELEMENTS, false},
       {"turning", 3, v[TURNING], VSC_ON_ELEMENTS, false},
       {"holes", 3, v[HOLES], VSC_ON_ELEMENTS, false},
-      {"slanted", 3, v[SLANTED], VSC_ON_ELEMENTS, false}};
+      {"slanted", 3, v[SLANTED], VSC_ON_ELEMENTS, false},
+      {"nothing", 3, v[NOTHING], VSC_ON_ELEMENTS, false}};
   trap_off();  // VTK compares NaN for their range
   assert_int_equal(write_tets(in_folder("fibres.vtu"), mesh->node_count, mesh->nodes,
-                                      mesh->element_count, mesh->corners, 0, NULL, 7, arrays, true, NULL),
+                                      mesh->element_count, mesh->corners, 0, NULL, 8, arrays, true, NULL),
                    VSC_OK);
   trap_on();
   for (int k = 0; k < KINDS; k++) free(v[k]);
@@ -234,6 +235,45 @@ static void test_warnings_about_fibres(void **state)
   assert_int_equal(warnings(), 0);
   must("$V check block.yaml --set 'fibers={source: constant, constant: {fiber: [1, 0, 0]}}'");
   assert_int_equal(warnings(), 0);
+}
+
+#define STIFF_FIBRES " --set 'materials[0].axial={f: 90 kPa, s: 20 kPa, n: 20 kPa}' "
+#define PASSIVE " --set 'materials[0].active.kind=none' "
+
+// Passive tissue that depends on direction needs fibres, too.
+static void test_directions_that_nobody_gave(void **state)
+{
+  (void)state;
+  write_fibres();
+  assert_warns("--set mesh.file=fibres.vtu --set fibers.arrays.fiber=holes" STIFF_FIBRES PASSIVE,
+               "48 of 480 elements have no fibre; `fill: true` takes them from their neighbours; in 48 of them the "
+               "material depends on direction, and its f, s, n are global x, y, z");
+  assert_holds(line_of("fibres"), "48 passive; of 48 the fibre vector is zero or not finite");
+  assert_warns("--set mesh.file=fibres.vtu --set fibers.arrays.fiber=holes" STIFF_FIBRES,
+               "48 of 480 elements have no fibre and stay passive; `fill: true` takes them from their neighbours; in 48 ");
+  assert_warns("--set 'fibers={source: none}'" STIFF_FIBRES PASSIVE,
+               "480 of 480 elements have no fibre; where that is meant, fibers.source: constant says so; in 480 of them");
+  must("$V check block.yaml --set mesh.file=fibres.vtu --set fibers.arrays.fiber=holes --set fibers.fill=true" STIFF_FIBRES
+       PASSIVE);
+  assert_int_equal(warnings(), 0);
+  must("$V check block.yaml --set mesh.file=fibres.vtu --set fibers.arrays.fiber=nothing" PASSIVE);
+  assert_int_equal(warnings(), 0);  // isotropic
+  assert_holds(line_of("fibres"), "480 passive; of 480 the fibre vector is zero or not finite");
+  assert_int_equal(
+      shell("$V check block.yaml --set mesh.file=fibres.vtu --set fibers.arrays.fiber=nothing" STIFF_FIBRES PASSIVE), 2);
+  assert_int_equal(line_count(complained), 1);
+  assert_holds(complained, "none of the vectors of 'nothing' is a direction (of 480 elements they are zero or not finite)");
+}
+
+static void test_sheets_that_are_none(void **state)
+{
+  (void)state;
+  write_fibres();
+  assert_warns("--set mesh.file=fibres.vtu --set 'fibers.arrays={fiber: turning, sheet: nothing}'",
+               "the sheet vectors of 480 of 480 elements are zero, not finite or along the fibre");
+  // 48 are zero or not finite, and 45 degrees off where they are not
+  must("$V check block.yaml --set mesh.file=fibres.vtu --set 'fibers.arrays={fiber: slanted, sheet: holes}'");
+  assert_holds(said, "the sheet vectors of 48 of 480 elements are zero");
 }
 
 // `boundary` may be the epicardium: what it has beside the endocardium, which is told where they meet.
@@ -321,6 +361,8 @@ int main(void)
       cmocka_unit_test(test_warnings_about_materials),
       cmocka_unit_test(test_warnings_about_the_setting),
       cmocka_unit_test(test_warnings_about_fibres),
+      cmocka_unit_test(test_directions_that_nobody_gave),
+      cmocka_unit_test(test_sheets_that_are_none),
       cmocka_unit_test(test_a_boundary_as_epicardium),
       cmocka_unit_test(test_a_vessel_in_another_law),
       cmocka_unit_test(test_active_without_fibres_is_an_error),

@@ -123,10 +123,12 @@ static void say_fibers(const vsc_problem *problem, FILE *out)
   const vsc_fiber_def *def = &problem->scene->fibers;
   fprintf(
       out,
-      "fibres     %s%s%s: %zu of %zu elements (%.1f %%), %zu filled from neighbours, %zu passive\n",
+      "fibres     %s%s%s: %zu of %zu elements (%.1f %%), %zu filled from neighbours, %zu passive",
       vsc_fiber_source_name(def->source), def->source == VSC_FIBER_MAP ? " " : "",
       def->source == VSC_FIBER_MAP ? def->map.file : "", f->with_data, f->elements,
       100.0 * (double)f->with_data / (double)f->elements, f->filled, f->passive);
+  if (f->invalid > 0) fprintf(out, "; of %zu the fibre vector is zero or not finite", f->invalid);
+  fputc('\n', out);
   if (def->source == VSC_FIBER_NONE) return;
   fprintf(out,
           "angles     azimuth %.0f, %.0f, %.0f deg; elevation %.0f, %.0f, %.0f deg (10, 50, 90 %%)",

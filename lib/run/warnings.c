@@ -128,13 +128,35 @@ static void warn_membranes(writer *w, const vsc_problem *problem)
   }
 }
 
+// Elements without a fibre: those that cannot contract, and those whose global axes matter.
+static void warn_no_fibre(writer *w, const vsc_problem *problem)
+{
+  const vsc_fiber_report *f = &problem->fibers;
+  const vsc_fiber_def *def = &problem->scene->fibers;
+  const bool active = problem->model->terms.active != VSC_ACTIVE_NONE && f->passive > 0;
+  const size_t undirected = vsc_undirected_elements(problem->model);
+  const char *remedy = def->fill ? "" : "; `fill: true` takes them from their neighbours";
+  char global[128] = "";
+  if (!active && undirected == 0) return;
+  if (def->source != VSC_FIBER_MAP && def->source != VSC_FIBER_ARRAYS) remedy = "";
+  if (def->source == VSC_FIBER_NONE) remedy = "; where that is meant, fibers.source: constant says so";
+  if (undirected > 0)
+    snprintf(global, sizeof global, "; in %zu of them the material depends on direction, and its f, s, n are global x, y, z",
+             undirected);
+  warn(w, "fibers: %zu of %zu elements have no fibre%s%s%s", f->passive, f->elements, active ? " and stay passive" : "",
+       remedy, global);
+}
+
 static void warn_fibers(writer *w, const vsc_problem *problem)
 {
   const vsc_fiber_report *f = &problem->fibers;
   const vsc_fiber_def *def = &problem->scene->fibers;
-  if (problem->model->terms.active != VSC_ACTIVE_NONE && f->passive > 0)
-    warn(w, "fibers: %zu of %zu elements have no fibre and stay passive%s", f->passive, f->elements,
-         def->fill ? "" : "; `fill: true` takes them from their neighbours");
+  warn_no_fibre(w, problem);
+  if (f->invalid_sheets > 0)
+    warn(w,
+         "fibers: the sheet vectors of %zu of %zu elements are zero, not finite or along the fibre: their sheet is made of "
+         "the global axis that is most across the fibre",
+         f->invalid_sheets, f->elements);
   if (def->source == VSC_FIBER_MAP && f->filled > f->elements / 10)
     warn(w,
          "fibers: %.0f %% of the elements took their fibre from neighbours: does the map cover the "
