@@ -276,6 +276,68 @@ static void test_sheets_that_are_none(void **state)
   assert_holds(said, "the sheet vectors of 48 of 480 elements are zero");
 }
 
+// The block, and a copy of it at its end face that is not joined to it; or the block with its first tet twice.
+static void write_torn(const char *file, bool copied)
+{
+  vsc_mesh *mesh = block_for_scene();
+  const size_t nodes = mesh->node_count, tets = mesh->element_count, more = copied ? tets : 1;
+  const size_t all = copied ? 2 * nodes : nodes;
+  double *x = calloc(3 * all, sizeof *x), *face[2], *region = calloc(tets + more, sizeof *region);
+  double *fiber = calloc(3 * (tets + more), sizeof *fiber);
+  uint32_t *corner = calloc(4 * (tets + more), sizeof *corner);
+  for (int a = 0; a < 2; a++) {
+    face[a] = calloc(all, sizeof(double));
+    for (size_t n = 0; n < nodes; n++)
+      face[a][n] = vsc_arrays_find(&mesh->node_data, a ? "x1" : "x0")->values[n];
+  }
+  for (size_t n = 0; n < all; n++)
+    for (size_t a = 0; a < 3; a++) x[3 * n + a] = mesh->nodes[3 * (n % nodes) + a];
+  for (size_t n = nodes; n < all; n++) x[3 * n] = 40 - x[3 * n];  // mirrored, so that the faces fit
+  for (size_t e = 0; e < tets + more; e++) {
+    for (int c = 0; c < 4; c++)
+      corner[4 * e + (size_t)c] = mesh->corners[4 * (e % tets) + (size_t)c] + (uint32_t)(copied && e >= tets ? nodes : 0);
+    region[e] = 1;
+    fiber[3 * e] = 1;
+    fiber[3 * e + 1] = 0.1 * (double)(e % 7);
+  }
+  const vsc_vtk_array arrays[] = {{"x0", 1, face[0], VSC_ON_NODES, false},
+                                  {"x1", 1, face[1], VSC_ON_NODES, false},
+                                  {"region", 1, region, VSC_ON_ELEMENTS, true},
+                                  {"direction", 3, fiber, VSC_ON_ELEMENTS, false}};
+  assert_int_equal(write_tets(in_folder(file), all, x, tets + more, corner, 0, NULL, 4, arrays, true, NULL), VSC_OK);
+  free(x);
+  free(face[0]);
+  free(face[1]);
+  free(region);
+  free(fiber);
+  free(corner);
+  vsc_mesh_free(mesh);
+}
+
+// A part that nothing holds is told of whatever the method; in a run too.
+static void test_bodies_in_parts(void **state)
+{
+  (void)state;
+  static const char words[] = "the body is in 2 parts that are not joined, and nothing holds 1 of them, as 480 elements with";
+  write_torn("torn.vtu", true);
+  assert_warns("--set mesh.file=torn.vtu", words);
+  assert_string_equal(line_of("parts"), "parts      2 separate; 50 nodes lie where another one does, not joined to it");
+  assert_warns("--set mesh.file=torn.vtu --set solve=implicit", words);
+  assert_warns("--set mesh.file=torn.vtu --set solve=equilibrium", "in a part of it, 480 elements with node");
+  must("$V run block.yaml -o torn --set mesh.file=torn.vtu --set 'time.end=0.1 ms'");
+  assert_int_equal(line_count(complained), 1);
+  assert_holds(complained, words);
+  must("$V check block.yaml -t 1");
+  assert_null(strstr(said, "\nparts "));
+}
+
+static void test_overlapping_elements(void **state)
+{
+  (void)state;
+  write_torn("twice.vtu", false);
+  assert_warns("--set mesh.file=twice.vtu", "mesh: three elements or more share a face, ");
+}
+
 // `boundary` may be the epicardium: what it has beside the endocardium, which is told where they meet.
 static void test_a_boundary_as_epicardium(void **state)
 {
@@ -363,6 +425,8 @@ int main(void)
       cmocka_unit_test(test_warnings_about_fibres),
       cmocka_unit_test(test_directions_that_nobody_gave),
       cmocka_unit_test(test_sheets_that_are_none),
+      cmocka_unit_test(test_bodies_in_parts),
+      cmocka_unit_test(test_overlapping_elements),
       cmocka_unit_test(test_a_boundary_as_epicardium),
       cmocka_unit_test(test_a_vessel_in_another_law),
       cmocka_unit_test(test_active_without_fibres_is_an_error),

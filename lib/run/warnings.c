@@ -5,6 +5,7 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
+#include "mesh/topology.h"
 #include "model/free_motions.h"
 #include "model/small_strain.h"
 #include "run/check.h"
@@ -241,6 +242,29 @@ static void warn_prestress(writer *w, const vsc_problem *problem)
          def->time);
 }
 
+// Parts of a moving body that nothing holds beside others: of one that is whole that may be meant.
+static void warn_parts(writer *w, const vsc_model *model)
+{
+  char where[VSC_FREE_TEXT];
+  size_t parts;
+  const size_t loose = vsc_loose_parts(model, &parts, where, sizeof where);
+  if (parts > 1 && loose > 0)
+    warn(w, "mesh: the body is in %zu parts that are not joined, and nothing holds %zu of them, as %s: are nodes at one "
+         "place not joined?",
+         parts, loose, where);
+}
+
+// Faces that only overlapping elements can share.
+static void warn_crowded(writer *w, const vsc_mesh *mesh)
+{
+  vsc_topology topology = {0};
+  if (vsc_topology_make(mesh, &topology, NULL) == VSC_OK && topology.crowded_faces > 0)
+    warn(w, "mesh: three elements or more share a face, %zu times, as with element %u: they overlap, or are "
+         "listed twice; remove what is double",
+         topology.crowded_faces, mesh->element_source[topology.crowded_element]);
+  vsc_topology_free(&topology);
+}
+
 static void warn_setting(writer *w, const vsc_problem *problem)
 {
   const vsc_model *model = problem->model;
@@ -255,8 +279,9 @@ static void warn_setting(writer *w, const vsc_problem *problem)
       model->solve.kind != VSC_SOLVE_EQUILIBRIUM)
     warn(w, "supports: nothing is held, so the load will carry the body away");
   char ways[VSC_FREE_TEXT];
-  const bool rests = model->solve.kind == VSC_SOLVE_EQUILIBRIUM;
-  if ((rests || problem->scene->prestress.loaded) && vsc_free_motions(model, ways, sizeof ways) > 0)
+  const bool rests = model->solve.kind == VSC_SOLVE_EQUILIBRIUM, balances = rests || problem->scene->prestress.loaded;
+  if (!balances) warn_parts(w, model);
+  if (balances && vsc_free_motions(model, ways, sizeof ways) > 0)
     warn(w, "%s: the body is free to %s, so forces that push it there never balance%s: hold it by supports or robin",
          rests ? "solve: equilibrium" : "prestress", ways,
          model->obstacle_count > 0 ? ", unless it touches obstacles from the start" : "");
@@ -272,9 +297,10 @@ static void warn_setting(writer *w, const vsc_problem *problem)
     warn(w, "materials: no damping, so vibrations never die away");
 }
 
-int vsc_check_warnings(const vsc_problem *problem, FILE *stream, const char *prefix)
+int vsc_check_warnings(const vsc_problem *problem, bool thorough, FILE *stream, const char *prefix)
 {
   writer w = {stream, prefix, 0};
+  if (thorough) warn_crowded(&w, problem->mesh);
   for (size_t m = 0; m < problem->model->material_count; m++)
     warn_material(&w, problem, m);
   warn_membranes(&w, problem);
