@@ -14,12 +14,22 @@
 
 // ---- From a voxel map
 
+// Whether a list has all arrays that a map names.
+static bool has_map(const vsc_arrays *arrays, const vsc_angle_map_def *map)
+{
+  const char *const names[] = {map->azimuth, map->elevation, map->mask, map->weight};
+  bool all = true;
+  for (int k = 0; k < 4; k++) all = all && (names[k][0] == '\0' || vsc_arrays_find(arrays, names[k]) != NULL);
+  return all;
+}
+
 static vsc_status from_map(const vsc_mesh *mesh, const vsc_angle_map_def *map, vsc_axes *axes,
                            vsc_fiber_report *report, vsc_error *error)
 {
   vsc_image *image = NULL;
   vsc_status status = vsc_vtk_read_image(map->file, map->length_unit, &image, error);
   if (status != VSC_OK) return status;
+  if (!has_map(&image->data, map) && has_map(&image->cell_data, map)) vsc_image_take_cells(image);
   status = vsc_fibers_sample(mesh, image, map, axes, report, error);
   vsc_image_free(image);
   return status;
@@ -101,9 +111,19 @@ static bool is_mean(const double v[3], const double a[3], const double b[3])
   return off <= 1e-12 * (vsc_norm(a) + vsc_norm(b));
 }
 
+// Whether two vectors are between 90 and 170 degrees apart: as axes they turn the other way round, by 10 and more.
+static bool are_opposed(const double a[3], const double b[3])
+{
+  static const double TANGENT_OF_10_DEGREES = 0.17632698070846498;
+  double across[3];
+  const double along = vsc_dot(a, b);
+  vsc_cross(a, b, across);
+  return along < 0 && vsc_norm(across) > TANGENT_OF_10_DEGREES * -along;
+}
+
 // sum_i N_i v_i of vectors on an element's nodes, as they are; or, of axes, all turned to the side of the first. In the
-// middle of an edge the mean of its ends stands for the mean of these as turned. Whether some vertex points
-// to the other side than the first.
+// middle of an edge the mean of its ends stands for the mean of these as turned. Whether some vertex is
+// opposed to the first.
 static bool interpolate(const vsc_mesh *mesh, size_t element, const double *N, const double *vectors, bool sense_kept,
                         double v[3])
 {
@@ -116,7 +136,7 @@ static bool interpolate(const vsc_mesh *mesh, size_t element, const double *N, c
   for (int i = 0; i < kind->corners; i++) {
     own[i] = vectors + 3 * (size_t)corner[i];
     side[i] = vsc_dot(own[i], own[0]) < 0 ? -1 : 1;
-    opposed |= i < kind->vertices && side[i] < 0;
+    opposed |= i < kind->vertices && are_opposed(own[i], own[0]);
   }
   for (int i = 0; i < kind->corners; i++) {
     const int *ends = i < kind->vertices ? NULL : kind->edges[i - kind->vertices];

@@ -8,7 +8,8 @@
 
 // Gives every element of `mesh` its axes. `surfaces` (surface_count) are the named surfaces, of which
 // HELIX uses two: triangles of both are the endocardium's, and an epicardium that has no others is VSC_INPUT. Reads
-// the voxel map when there is one. On success *axes is owned by the caller and `report` (not NULL) is filled.
+// the voxel map when there is one, from the points of its image or, where all its arrays lie there, from the cells. On
+// success *axes is owned by the caller and `report` (not NULL) is filled.
 // Sheet and normal: by the rule of vsc_axes_complete, with the sheet hint that the source gives (ARRAYS: the
 // sheet array; HELIX, ELLIPSOID: the transmural axis; see fibers/synthetic.h).
 //

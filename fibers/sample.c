@@ -55,6 +55,11 @@ static vsc_status find_array(const vsc_image *image, const char *name, const cha
 {
   char hint[256];
   const vsc_array *array = vsc_arrays_find(&image->data, name);
+  if (array == NULL && vsc_arrays_find(&image->cell_data, name) != NULL)
+    return vsc_fail(error, VSC_INPUT,
+                    "%s: array '%s' for the map's %s lies on the cells, and others of the map do not: put all on the "
+                    "points, or all on the cells",
+                    file, name, key);
   if (array == NULL) {
     vsc_arrays_hint(&image->data, name, hint, sizeof hint);
     return vsc_fail(error, VSC_INPUT, "%s: no array '%s' for the map's %s%s", file, name, key,

@@ -26,7 +26,8 @@ typedef struct vsc_fiber_report {
   size_t invalid;         // ARRAYS: zero or non-finite vectors, counted as no fibre
   size_t invalid_sheets;  // ARRAYS: zero or non-finite sheet vectors, or parallel to the fibre
                           // (within 1 degree), of elements with a fibre: completed by rule
-  size_t opposed;         // ARRAYS on nodes: elements at whose nodes fibres differ by more than 90 degrees
+  size_t opposed;         // ARRAYS on nodes: elements at whose nodes vectors differ by 90 to 170 degrees, so that as
+                          // axes they turn the other way round, by more than 10
   size_t meeting;         // HELIX, ELLIPSOID with surfaces: nodes on both of them, where the depth jumps
   bool constant;  // ARRAYS: all fibres are the same axis (within 0.06 degrees): perhaps a dummy
   double worst_sheet_angle;  // ARRAYS: largest deviation of sheet and fibre from a right angle,

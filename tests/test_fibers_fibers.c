@@ -248,6 +248,7 @@ static void arrays_of_the_nodes(void **state)
   vsc_fiber_report report;
   vsc_axes *axes = make(mesh, &definition, &report);
   assert_int_equal(report.invalid, 0);
+  assert_true(report.opposed > 0);  // the first layers turn by more than 10 degrees
   for (size_t e = 0; e < mesh->element_count; e++) {
     double at[3];
     vsc_mesh_element_centre(mesh, e, at);
@@ -312,6 +313,64 @@ static void senses_that_are_meant(void **state)
     }
 }
 
+// Signs by chance, of axes that hardly turn: none of them is opposed to another, and sheets do not count.
+static void signs_by_chance_are_no_opposition(void **state)
+{
+  (void)state;
+  for (int order = 1; order <= 2; order++) {
+    vsc_mesh *mesh = block();
+    vsc_fiber_def definition = from(VSC_FIBER_ARRAYS);
+    vsc_fiber_report report;
+    vsc_error error;
+    double *fibers = vsc_arrays_add(&mesh->node_data, "fiber", 3, mesh->node_count)->values;
+    for (size_t i = 0; i < mesh->node_count; i++) {
+      const double sign = i * 2654435761u >> 7 & 1 ? 1 : -1, angle = 4 * degree * mesh->nodes[3 * i];
+      fibers[3 * i] = sign * cos(angle);
+      fibers[3 * i + 1] = sign * sin(angle);
+    }
+    if (order == 2 && vsc_mesh_raise(&mesh, "block", &error) != VSC_OK) fail_msg("%s", error.text);
+    vsc_axes *axes = make(mesh, &definition, &report);
+    assert_int_equal(report.opposed, 0);
+    vsc_axes_free(axes);
+    vsc_mesh_free(mesh);
+  }
+}
+
+// A map whose angles lie on the cells, beside another array on the points; and one that is here and there.
+static void map_on_cells_beside_points(void **state)
+{
+  (void)state;
+  vsc_mesh *mesh = block();
+  vsc_fiber_def definition = from(VSC_FIBER_MAP);
+  snprintf(definition.map.file, VSC_PATH, "/tmp/viscera_test_cells_%ld.vti", (long)getpid());
+  for (int mixed = 0; mixed < 2; mixed++) {
+    FILE *file = fopen(definition.map.file, "w");
+    if (file == NULL) fail_msg("%s", definition.map.file);
+    static const char array[] = "<DataArray type=\"Float64\" Name=\"%s\" format=\"ascii\">%s</DataArray>";
+    fputs("<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\">"
+          "<ImageData WholeExtent=\"0 2 0 1 0 1\" Origin=\"0 0 0\" Spacing=\"4 4 6\"><Piece Extent=\"0 2 0 1 0 1\">"
+          "<PointData>", file);
+    fprintf(file, array, mixed ? "elevation" : "other", "0 0 0 0 0 0 0 0 0 0 0 0");
+    fputs("</PointData><CellData>", file);
+    fprintf(file, array, "azimuth", "20 20");
+    fprintf(file, array, mixed ? "more" : "elevation", "0 0");
+    fputs("</CellData></Piece></ImageData></VTKFile>", file);
+    fclose(file);
+    if (mixed) {
+      refuse(mesh, &definition, "array 'azimuth' for the map's azimuth lies on the cells");
+      break;
+    }
+    vsc_fiber_report report;
+    vsc_axes *axes = make(mesh, &definition, &report);
+    assert_int_equal(report.with_data, mesh->element_count);
+    for (size_t e = 0; e < mesh->element_count; e++)
+      assert_close(fabs(axes->frames[9 * e]), cos(20 * degree), 0, 1e-12);
+    vsc_axes_free(axes);
+  }
+  unlink(definition.map.file);
+  vsc_mesh_free(mesh);
+}
+
 static void map_from_a_file(void **state)
 {
   (void)state;
@@ -352,6 +411,8 @@ int main(void)
       cmocka_unit_test(figure_six),         cmocka_unit_test(random_fibers_fill_the_sphere),
       cmocka_unit_test(arrays_of_the_mesh), cmocka_unit_test(arrays_of_the_nodes),
       cmocka_unit_test(senses_that_are_meant),
+      cmocka_unit_test(signs_by_chance_are_no_opposition),
+      cmocka_unit_test(map_on_cells_beside_points),
       cmocka_unit_test(map_from_a_file),
   };
   return cmocka_run_group_tests_name("fibers/fibers", tests, NULL, NULL);

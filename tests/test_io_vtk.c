@@ -106,6 +106,7 @@ static void every_number_type_is_read(void **state)
   }
   const double pairs[4] = {2, 3, 8, 9.25};
   assert_memory_equal(array_of(&mesh->element_data, "f64", 2)->values, pairs, sizeof pairs);
+  assert_false(array_of(&mesh->element_data, "f64", 2)->single);
   assert_null(vsc_arrays_find(&mesh->element_data, "text"));
   assert_int_equal(mesh->element_data.count, 8);
   const double nodes[8] = {0, -1, 2, 3, 4, 5, 6, 7};
@@ -349,6 +350,7 @@ static void images_read_back(void **state)
   }
   for (int i = 0; i < 9; i++) assert_close(back->direction[i], direction[i], 1e-14, 1e-15);
   const vsc_array *there = array_of(&back->data, "angle", 1);
+  assert_true(there->single);
   assert_memory_equal(there->values, vsc_arrays_find(&image->data, "angle")->values,
                       60 * sizeof(double));
   assert_close(array_of(&back->data, "vector", 3)->values[179], 2.5, 0, 0);
@@ -390,11 +392,17 @@ static void extents_spacings_and_cells_are_honoured(void **state)
 
   vsc_image *image = read_image_text(place, "10 12 -1 0 5 6", on_points, on_cells);
   assert_null(vsc_arrays_find(&image->data, "c"));
+  assert_int_equal(array_of(&image->cell_data, "c", 1)->tuples, 2);
   assert_int_equal(array_of(&image->data, "a", 1)->tuples, 12);
   assert_int_equal(image->size[0], 3);
   assert_true(image->spacing[1] > 0);
   assert_place(image, 0, 0, 0, 2 * 6, 2 * 3, 2 * 13);
   assert_place(image, 2, 1, 1, 2 * 7, 2 * 2, 2 * 15);
+  vsc_image_take_cells(image);
+  assert_int_equal(image->data.count, 1);
+  assert_int_equal(image->size[0] * image->size[1] * image->size[2], 2);
+  assert_close(array_of(&image->data, "c", 1)->values[1], 6, 0, 0);
+  assert_place(image, 1, 0, 0, 2 * 6.75, 2 * 2.5, 2 * 14);
   vsc_image_free(image);
 
   image = read_image_text(place, "10 12 -1 0 5 6", "", on_cells);
@@ -404,6 +412,7 @@ static void extents_spacings_and_cells_are_honoured(void **state)
   assert_close(array_of(&image->data, "c", 1)->values[1], 6, 0, 0);
   assert_place(image, 0, 0, 0, 2 * 6.25, 2 * 2.5, 2 * 14);
   assert_place(image, 1, 0, 0, 2 * 6.75, 2 * 2.5, 2 * 14);
+  assert_int_equal(image->cell_data.count, 0);
   vsc_image_free(image);
 
   // One slice: its cells lie in its plane, and a zero spacing across it does no harm.

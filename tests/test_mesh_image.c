@@ -64,12 +64,38 @@ static void index_inverts_position(void **state)
   vsc_image_free(image);
 }
 
+// Cells of 2 x 3 points in one slice, turned and moved.
+static void cells_take_the_place_of_points(void **state)
+{
+  (void)state;
+  vsc_image *image = vsc_image_create((size_t[]){2, 3, 1});
+  const double direction[9] = {0, 1, 0, 1, 0, 0, 0, 0, 1};
+  for (int i = 0; i < 9; i++) image->direction[i] = direction[i];
+  for (int i = 0; i < 3; i++) {
+    image->origin[i] = 10 * (i + 1);
+    image->spacing[i] = 0.5 * (i + 1);
+  }
+  vsc_arrays_add(&image->data, "on points", 1, 6);
+  vsc_arrays_add(&image->cell_data, "on cells", 1, 2)->values[1] = 7;
+  vsc_image_take_cells(image);
+  const size_t size[3] = {1, 2, 1};
+  assert_memory_equal(image->size, size, sizeof size);
+  assert_null(vsc_arrays_find(&image->data, "on points"));
+  assert_close(vsc_arrays_find(&image->data, "on cells")->values[1], 7, 0, 0);
+  assert_int_equal(image->cell_data.count, 0);
+  assert_close(image->origin[0], 10.5, 1e-15, 0);
+  assert_close(image->origin[1], 20.25, 1e-15, 0);
+  assert_close(image->origin[2], 30, 1e-15, 0);
+  vsc_image_free(image);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_new_image_is_plain),
     cmocka_unit_test(position_by_hand),
     cmocka_unit_test(index_inverts_position),
+    cmocka_unit_test(cells_take_the_place_of_points),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

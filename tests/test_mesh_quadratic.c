@@ -54,7 +54,10 @@ static void tets_become_quadratic(void **state)
   (void)state;
   vsc_mesh *linear = box_with_arrays(), *mesh = box_with_arrays();
   mesh->element_source[7] = 1000;
+  mesh->node_data.items[0].single = mesh->triangle_data.items[0].single = true;
   raise_mesh(&mesh);
+  assert_true(mesh->node_data.items[0].single && mesh->triangle_data.items[0].single);
+  assert_false(mesh->node_data.items[1].single);
   assert_int_equal(mesh->node_count, 27 + 98);
   assert_int_equal(mesh->element_count, 48);
   assert_int_equal(mesh->element_source[7], 1000);

@@ -186,9 +186,98 @@ static void empty_surfaces_are_refused(void **state)
   vsc_selector inner = MARK;
   inner.low = inner.high = 2;
   assert_int_equal(vsc_select_surface(f->mesh, &f->boundary, &inner, &surface, &error), VSC_INPUT);
+  assert_non_null(strstr(error.text, "base: of the file's 1 triangles with mark from 2 to 2, 1 are no faces"));
+  inner.low = 1;  // beside faces of the boundary it is refused too
+  assert_int_equal(vsc_select_surface(f->mesh, &f->boundary, &inner, &surface, &error), VSC_INPUT);
+  assert_non_null(strstr(error.text, "base: of the file's 9 triangles with mark from 1 to 2, 1 are no faces"));
   const vsc_selector named = {.name = "s", .kind = VSC_SELECT_SURFACE, .array = "base"};
   assert_int_equal(vsc_select_surface(f->mesh, &f->boundary, &named, &surface, &error), VSC_INPUT);
   assert_null(surface.triangles);
+}
+
+// Of an array in single precision the bounds are rounded as its values are: 0.7 takes what a file calls 0.7.
+static void single_precision_is_compared_as_such(void **state)
+{
+  fixture *f = *state;
+  vsc_array *depth = vsc_arrays_add(&f->mesh->node_data, "depth", 1, f->mesh->node_count);
+  for (size_t i = 0; i < f->mesh->node_count; i++)
+    depth->values[i] = f->mesh->nodes[3 * i + 2] == 2 ? 0.7f : 0.1f;
+  vsc_selector some = {.name = "some", .kind = VSC_SELECT_NODE_ARRAY, .array = "depth", .low = 0.7, .high = 1e300};
+  assert_no_nodes(f, &some, "the array runs from 0.1");
+  depth->single = true;
+  assert_int_equal(count_nodes(f, &some, NULL, 0), 9);
+  some.low = some.high = 0.1;
+  assert_int_equal(count_nodes(f, &some, NULL, 0), 18);
+  some.low = -1e300;
+  some.high = 0.0999999;
+  assert_no_nodes(f, &some, "the array runs from 0.100000001 to 0.69999998");
+  vsc_array *mark = &f->mesh->triangle_data.items[0];
+  vsc_selector base = MARK;
+  for (size_t t = 0; t < mark->tuples; t++) mark->values[t] = (float)(0.1 * mark->values[t]);
+  base.low = base.high = 0.1;
+  assert_no_nodes(f, &base, "no value of array mark");
+  mark->single = true;
+  assert_int_equal(count_triangles(f, &base), 8);
+}
+
+// Two bricks, one on the other, with `count` triangles (corners by x, y and z) marked 1.
+static vsc_mesh *two_bricks(size_t count, const uint32_t (*triangles)[3])
+{
+  const uint8_t kinds[2] = {VSC_HEX, VSC_HEX};
+  vsc_mesh *mesh = vsc_mesh_create_cells(12, 2, kinds, count);
+  for (uint32_t i = 0; i < 12; i++)
+    for (uint32_t a = 0; a < 3; a++) mesh->nodes[3 * i + a] = (a == 0 ? i % 2 : a == 1 ? i / 2 % 2 : i / 4);
+  for (uint32_t c = 0; c < 16; c++)
+    mesh->corners[c] = (const uint32_t[8]){0, 1, 3, 2, 4, 5, 7, 6}[c % 8] + 4 * (c / 8);
+  vsc_array *mark = vsc_arrays_add(&mesh->triangle_data, "mark", 1, count);
+  for (size_t t = 0; t < count; t++) {
+    memcpy(mesh->triangles + 3 * t, triangles[t], sizeof triangles[t]);
+    mark->values[t] = 1;
+  }
+  vsc_error error;
+  if (vsc_mesh_clean(mesh, "bricks", &error) != VSC_OK) fail_msg("%s", error.text);
+  return mesh;
+}
+
+static vsc_status select_on_bricks(size_t count, const uint32_t (*triangles)[3], size_t *found, vsc_error *error)
+{
+  vsc_mesh *mesh = two_bricks(count, triangles);
+  vsc_surface boundary, surface;
+  assert_int_equal(vsc_boundary(mesh, &boundary, NULL), VSC_OK);
+  const vsc_status status = vsc_select_surface(mesh, &boundary, &MARK, &surface, error);
+  *found = surface.count;
+  vsc_surface_free(&surface);
+  vsc_surface_free(&boundary);
+  vsc_mesh_free(mesh);
+  return status;
+}
+
+// The top (8 to 11) is cut from 8 to 11 here, and a side (0, 1, 4, 5) from 0 to 5.
+static void quadrilaterals_may_be_cut_either_way(void **state)
+{
+  (void)state;
+  static const uint32_t same[2][3] = {{8, 9, 11}, {8, 11, 10}}, other[2][3] = {{9, 11, 10}, {8, 9, 10}};
+  static const uint32_t mixed[4][3] = {{9, 11, 10}, {4, 0, 1}, {8, 9, 10}, {1, 5, 4}};
+  static const uint32_t inside[3][3] = {{4, 5, 6}, {6, 5, 7}, {8, 9, 11}}, across[2][3] = {{8, 9, 11}, {0, 3, 11}};
+  size_t found;
+  vsc_error error;
+  assert_int_equal(select_on_bricks(2, same, &found, &error), VSC_OK);
+  assert_int_equal(found, 2);
+  assert_int_equal(select_on_bricks(1, same, &found, &error), VSC_OK);
+  assert_int_equal(found, 1);
+  assert_int_equal(select_on_bricks(2, other, &found, &error), VSC_OK);
+  assert_int_equal(found, 2);
+  assert_int_equal(select_on_bricks(4, mixed, &found, &error), VSC_OK);
+  assert_int_equal(found, 4);
+  // half of a face cut the other way, the face between the bricks, and no face at all
+  assert_int_equal(select_on_bricks(1, other, &found, &error), VSC_INPUT);
+  assert_int_equal(select_on_bricks(3, mixed, &found, &error), VSC_INPUT);
+  assert_non_null(strstr(error.text, "the file's 3 triangles with mark from 1 to 1, 1 are no faces"));
+  assert_non_null(strstr(error.text, "between points 4, 0, 1:"));
+  assert_int_equal(select_on_bricks(3, inside, &found, &error), VSC_INPUT);
+  assert_non_null(strstr(error.text, "3 triangles with mark from 1 to 1, 2 are no faces"));
+  assert_int_equal(select_on_bricks(2, across, &found, &error), VSC_INPUT);
+  assert_non_null(strstr(error.text, "between points 0, 3, 11:"));
 }
 
 static void short_memory_is_reported(void **state)
@@ -215,6 +304,8 @@ int main(void)
     cmocka_unit_test_setup_teardown(empty_sets_say_what_was_near, set_up, tear_down),
     cmocka_unit_test_setup_teardown(unknown_names_are_refused_with_the_nearest, set_up, tear_down),
     cmocka_unit_test_setup_teardown(empty_surfaces_are_refused, set_up, tear_down),
+    cmocka_unit_test_setup_teardown(single_precision_is_compared_as_such, set_up, tear_down),
+    cmocka_unit_test(quadrilaterals_may_be_cut_either_way),
     cmocka_unit_test_setup_teardown(short_memory_is_reported, set_up, tear_down),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

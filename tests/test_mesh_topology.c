@@ -95,6 +95,7 @@ static void overlapping_tets_are_counted(void **state)
   vsc_topology topology;
   assert_int_equal(vsc_topology_make(mesh, &topology, NULL), VSC_OK);
   assert_int_equal(topology.crowded_faces, 1);
+  assert_int_equal(topology.crowded_element, 2);
   int inside = 0;
   for (int t = 0; t < 3; t++)
     for (int i = 0; i < 4; i++) {

@@ -115,6 +115,31 @@ static void a_loose_part_is_found(void **state)
       assert_string_equal(text, "");
     else if (strncmp(text, words, strlen(words)) != 0 || strstr(text, " that is joined to nothing else") == NULL)
       fail_msg("\"%s\"", text);
+    size_t parts;
+    double x = 0;
+    assert_int_equal(vsc_loose_parts(body.model, &parts, text, sizeof text), both ? 0 : 1);
+    assert_int_equal(parts, 2);
+    if (both)
+      assert_string_equal(text, "");
+    else if (sscanf(text, "48 elements with node %*u at (%lf, ", &x) != 1 || x < 7)
+      fail_msg("\"%s\"", text);
+    body_close(&body);
+  }
+}
+
+// A part that is held in one direction is not loose, and a body that is whole is one part.
+static void what_is_held_somehow_is_not_loose(void **state)
+{
+  (void)state;
+  for (int held = 0; held < 2; held++) {
+    small_body body;
+    char text[VSC_FREE_TEXT];
+    size_t parts;
+    body_open(&body, block_of(2, 2, 2, 1, 0), 50);
+    if (held) body_hold(&body, "x0", 0, 1, 0);
+    body_build(&body);
+    assert_int_equal(vsc_loose_parts(body.model, &parts, text, sizeof text), !held);
+    assert_int_equal(parts, 1);
     body_close(&body);
   }
 }
@@ -126,6 +151,7 @@ int main(void)
       cmocka_unit_test(springs_on_a_surface_hold_too),
       cmocka_unit_test(an_oblique_bar_slides_and_turns),
       cmocka_unit_test(a_loose_part_is_found),
+      cmocka_unit_test(what_is_held_somehow_is_not_loose),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

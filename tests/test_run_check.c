@@ -140,7 +140,7 @@ static void test_given_step(void **state)
 static void test_warnings_about_materials(void **state)
 {
   (void)state;
-  assert_warns("--set volume=element", "linear tets lock");
+  assert_warns("--set volume=element --set 'materials[0].stabilization=0 kPa'", "linear tets lock");
   assert_warns("--set 'materials[0].stabilization=0 kPa'",
                "stabilization to about the shear modulus (10 kPa)");
   assert_warns("--set 'materials[0].volume_modulus=15 kPa'", "below the stiffest axial modulus");
@@ -157,7 +157,8 @@ static void test_warnings_about_materials(void **state)
   must("$V check block.yaml --set volume=element --set 'materials[0].volume_modulus=150 kPa' "
        "--set 'materials[0].stabilization=0 kPa'");
   assert_int_equal(warnings(), 0);
-  assert_warns("--set volume=element", "stabilization does nothing with volume: element");
+  assert_warns("--set volume=element --set 'materials[0].volume_modulus=150 kPa'",
+               "stabilization does nothing with volume: element");
 }
 
 static void test_warnings_about_the_setting(void **state)
@@ -179,16 +180,16 @@ static void test_warnings_about_the_setting(void **state)
 }
 
 // The block with cell arrays: one direction everywhere; one for each element; the same with holes;
-// sheets at 45 degrees to the second.
+// sheets at 45 degrees to the second; zeros.
 static void write_fibres(void)
 {
-  enum { SAME, TURNING, HOLES, SLANTED, KINDS };
+  enum { SAME, TURNING, HOLES, SLANTED, NOTHING, KINDS };
   vsc_mesh *mesh = block_for_scene();
   double *v[KINDS];
   for (int k = 0; k < KINDS; k++) v[k] = calloc(3 * mesh->element_count, sizeof *v[k]);
   for (size_t t = 0; t < mesh->element_count; t++) {
     const double angle[KINDS] = {0, (double)t, (double)t, (double)t + M_PI / 4};
-    for (int k = 0; k < KINDS; k++) {
+    for (int k = 0; k < NOTHING; k++) {
       if (k == HOLES && t % 20 == 0) continue;
       v[k][3 * t] = k == HOLES && t % 20 == 10 ? NAN : cos(angle[k]);
       v[k][3 * t + 1] = sin(angle[k]);
@@ -201,10 +202,11 @@ static void write_fibres(void)
       {"same", 3, v[SAME], VSC_ON_ELEMENTS, false},
       {"turning", 3, v[TURNING], VSC_ON_ELEMENTS, false},
       {"holes", 3, v[HOLES], VSC_ON_ELEMENTS, false},
-      {"slanted", 3, v[SLANTED], VSC_ON_ELEMENTS, false}};
+      {"slanted", 3, v[SLANTED], VSC_ON_ELEMENTS, false},
+      {"nothing", 3, v[NOTHING], VSC_ON_ELEMENTS, false}};
   trap_off();  // VTK compares NaN for their range
   assert_int_equal(write_tets(in_folder("fibres.vtu"), mesh->node_count, mesh->nodes,
-                                      mesh->element_count, mesh->corners, 0, NULL, 7, arrays, true, NULL),
+                                      mesh->element_count, mesh->corners, 0, NULL, 8, arrays, true, NULL),
                    VSC_OK);
   trap_on();
   for (int k = 0; k < KINDS; k++) free(v[k]);
@@ -236,6 +238,107 @@ static void test_warnings_about_fibres(void **state)
   assert_int_equal(warnings(), 0);
   must("$V check block.yaml --set 'fibers={source: constant, constant: {fiber: [1, 0, 0]}}'");
   assert_int_equal(warnings(), 0);
+}
+
+#define STIFF_FIBRES " --set 'materials[0].axial={f: 90 kPa, s: 20 kPa, n: 20 kPa}' "
+#define PASSIVE " --set 'materials[0].active.kind=none' "
+
+// Passive tissue that depends on direction needs fibres, too.
+static void test_directions_that_nobody_gave(void **state)
+{
+  (void)state;
+  write_fibres();
+  assert_warns("--set mesh.file=fibres.vtu --set fibers.arrays.fiber=holes" STIFF_FIBRES PASSIVE,
+               "48 of 480 elements have no fibre; `fill: true` takes them from their neighbours; in 48 of them the "
+               "material depends on direction, and its f, s, n are global x, y, z");
+  assert_holds(line_of("fibres"), "48 passive; of 48 the fibre vector is zero or not finite");
+  assert_warns("--set mesh.file=fibres.vtu --set fibers.arrays.fiber=holes" STIFF_FIBRES,
+               "48 of 480 elements have no fibre and stay passive; `fill: true` takes them from their neighbours; in 48 ");
+  assert_warns("--set 'fibers={source: none}'" STIFF_FIBRES PASSIVE,
+               "480 of 480 elements have no fibre; where that is meant, fibers.source: constant says so; in 480 of them");
+  must("$V check block.yaml --set mesh.file=fibres.vtu --set fibers.arrays.fiber=holes --set fibers.fill=true" STIFF_FIBRES
+       PASSIVE);
+  assert_int_equal(warnings(), 0);
+  must("$V check block.yaml --set mesh.file=fibres.vtu --set fibers.arrays.fiber=nothing" PASSIVE);
+  assert_int_equal(warnings(), 0);  // isotropic
+  assert_holds(line_of("fibres"), "480 passive; of 480 the fibre vector is zero or not finite");
+  assert_int_equal(
+      shell("$V check block.yaml --set mesh.file=fibres.vtu --set fibers.arrays.fiber=nothing" STIFF_FIBRES PASSIVE), 2);
+  assert_int_equal(line_count(complained), 1);
+  assert_holds(complained, "none of the vectors of 'nothing' is a direction (of 480 elements they are zero or not finite)");
+}
+
+static void test_sheets_that_are_none(void **state)
+{
+  (void)state;
+  write_fibres();
+  assert_warns("--set mesh.file=fibres.vtu --set 'fibers.arrays={fiber: turning, sheet: nothing}'",
+               "the sheet vectors of 480 of 480 elements are zero, not finite or along the fibre");
+  // 48 are zero or not finite, and 45 degrees off where they are not
+  must("$V check block.yaml --set mesh.file=fibres.vtu --set 'fibers.arrays={fiber: slanted, sheet: holes}'");
+  assert_holds(said, "the sheet vectors of 48 of 480 elements are zero");
+}
+
+// The block, and a copy of it at its end face that is not joined to it; or the block with its first tet twice.
+static void write_torn(const char *file, bool copied)
+{
+  vsc_mesh *mesh = block_for_scene();
+  const size_t nodes = mesh->node_count, tets = mesh->element_count, more = copied ? tets : 1;
+  const size_t all = copied ? 2 * nodes : nodes;
+  double *x = calloc(3 * all, sizeof *x), *face[2], *region = calloc(tets + more, sizeof *region);
+  double *fiber = calloc(3 * (tets + more), sizeof *fiber);
+  uint32_t *corner = calloc(4 * (tets + more), sizeof *corner);
+  for (int a = 0; a < 2; a++) {
+    face[a] = calloc(all, sizeof(double));
+    for (size_t n = 0; n < nodes; n++)
+      face[a][n] = vsc_arrays_find(&mesh->node_data, a ? "x1" : "x0")->values[n];
+  }
+  for (size_t n = 0; n < all; n++)
+    for (size_t a = 0; a < 3; a++) x[3 * n + a] = mesh->nodes[3 * (n % nodes) + a];
+  for (size_t n = nodes; n < all; n++) x[3 * n] = 40 - x[3 * n];  // mirrored, so that the faces fit
+  for (size_t e = 0; e < tets + more; e++) {
+    for (int c = 0; c < 4; c++)
+      corner[4 * e + (size_t)c] = mesh->corners[4 * (e % tets) + (size_t)c] + (uint32_t)(copied && e >= tets ? nodes : 0);
+    region[e] = 1;
+    fiber[3 * e] = 1;
+    fiber[3 * e + 1] = 0.1 * (double)(e % 7);
+  }
+  const vsc_vtk_array arrays[] = {{"x0", 1, face[0], VSC_ON_NODES, false},
+                                  {"x1", 1, face[1], VSC_ON_NODES, false},
+                                  {"region", 1, region, VSC_ON_ELEMENTS, true},
+                                  {"direction", 3, fiber, VSC_ON_ELEMENTS, false}};
+  assert_int_equal(write_tets(in_folder(file), all, x, tets + more, corner, 0, NULL, 4, arrays, true, NULL), VSC_OK);
+  free(x);
+  free(face[0]);
+  free(face[1]);
+  free(region);
+  free(fiber);
+  free(corner);
+  vsc_mesh_free(mesh);
+}
+
+// A part that nothing holds is told of whatever the method; in a run too.
+static void test_bodies_in_parts(void **state)
+{
+  (void)state;
+  static const char words[] = "the body is in 2 parts that are not joined, and nothing holds 1 of them, as 480 elements with";
+  write_torn("torn.vtu", true);
+  assert_warns("--set mesh.file=torn.vtu", words);
+  assert_string_equal(line_of("parts"), "parts      2 separate; 50 nodes lie where another one does, not joined to it");
+  assert_warns("--set mesh.file=torn.vtu --set solve=implicit", words);
+  assert_warns("--set mesh.file=torn.vtu --set solve=equilibrium", "in a part of it, 480 elements with node");
+  must("$V run block.yaml -o torn --set mesh.file=torn.vtu --set 'time.end=0.1 ms'");
+  assert_int_equal(line_count(complained), 1);
+  assert_holds(complained, words);
+  must("$V check block.yaml -t 1");
+  assert_null(strstr(said, "\nparts "));
+}
+
+static void test_overlapping_elements(void **state)
+{
+  (void)state;
+  write_torn("twice.vtu", false);
+  assert_warns("--set mesh.file=twice.vtu", "mesh: three elements or more share a face, ");
 }
 
 // `boundary` may be the epicardium: what it has beside the endocardium, which is told where they meet.
@@ -323,6 +426,10 @@ int main(void)
       cmocka_unit_test(test_warnings_about_materials),
       cmocka_unit_test(test_warnings_about_the_setting),
       cmocka_unit_test(test_warnings_about_fibres),
+      cmocka_unit_test(test_directions_that_nobody_gave),
+      cmocka_unit_test(test_sheets_that_are_none),
+      cmocka_unit_test(test_bodies_in_parts),
+      cmocka_unit_test(test_overlapping_elements),
       cmocka_unit_test(test_a_boundary_as_epicardium),
       cmocka_unit_test(test_a_vessel_in_another_law),
       cmocka_unit_test(test_active_without_fibres_is_an_error),

@@ -230,6 +230,22 @@ static void test_info_of_scenes(void **state)
   assert_holds(said, "m: law classical, 8 mN/mm; passive\n");
 }
 
+// Arrays on cells are told beside those on points.
+static void test_info_of_an_image_with_both(void **state)
+{
+  (void)state;
+  FILE *file = fopen(in_folder("both.vti"), "w");
+  assert_non_null(file);
+  fputs("<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\"><ImageData WholeExtent=\"0 2 0 1 0 0\">"
+        "<Piece Extent=\"0 2 0 1 0 0\"><PointData><DataArray type=\"Float64\" Name=\"p\" format=\"ascii\">1 2 3 4 5 6"
+        "</DataArray></PointData><CellData><DataArray type=\"Float64\" Name=\"c\" format=\"ascii\">7 8</DataArray>"
+        "</CellData></Piece></ImageData></VTKFile>", file);
+  fclose(file);
+  assert_int_equal(run("info both.vti"), 0);
+  assert_holds(said, "arrays on points\n    p                    1 to 6\n");
+  assert_holds(said, "arrays on cells\n    c                    7 to 8\n");
+}
+
 static void test_info_says_what_is_wrong(void **state)
 {
   (void)state;
@@ -332,6 +348,7 @@ int main(void)
       cmocka_unit_test(test_dispatch),
       cmocka_unit_test(test_every_verb_has_help_with_examples),
       cmocka_unit_test(test_a_full_disk_is_an_error),
+      cmocka_unit_test(test_info_of_an_image_with_both),
       cmocka_unit_test(test_info),
       cmocka_unit_test(test_info_of_scenes),
       cmocka_unit_test(test_info_says_what_is_wrong),

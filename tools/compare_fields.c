@@ -131,8 +131,8 @@ static vsc_status add_arrays(vsc_comparison *all, const places *at, const vsc_ar
 // Positions, of meshes compared value by value.
 static vsc_status add_positions(vsc_comparison *all, const places *points, const vsc_mesh *a, const vsc_mesh *b, vsc_error *error)
 {
-  const vsc_array first = {"(positions)", 3, a->node_count, a->nodes};
-  const vsc_array second = {"(positions)", 3, b->node_count, b->nodes};
+  const vsc_array first = {.name = "(positions)", .components = 3, .tuples = a->node_count, .values = a->nodes};
+  const vsc_array second = {.name = "(positions)", .components = 3, .tuples = b->node_count, .values = b->nodes};
   return add_array(all, points, &first, &second, error);
 }
 

@@ -148,6 +148,7 @@ static vsc_status info_image(const char *file, vsc_error *error)
   printf("  i, j, k run along      (%g, %g, %g), (%g, %g, %g), (%g, %g, %g)\n", d[0], d[3], d[6],
          d[1], d[4], d[7], d[2], d[5], d[8]);
   print_arrays("points", &image->data);
+  print_arrays("cells", &image->cell_data);
   vsc_image_free(image);
   return VSC_OK;
 }

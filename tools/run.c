@@ -191,7 +191,7 @@ int vsc_verb_run(int argc, char **argv)
   vsc_problem *problem;
   code = vsc_load_scene(&arguments.scene, &problem);
   if (code != 0) return code;
-  if (!arguments.quiet) vsc_check_warnings(problem, stderr, "viscera: warning: ");
+  if (!arguments.quiet) vsc_check_warnings(problem, false, stderr, "viscera: warning: ");
   double begin[2] = {0, -1};
   if (!arguments.quiet && isatty(STDERR_FILENO)) arguments.run.progress = show_progress;
   arguments.run.progress_context = begin;

@@ -28,7 +28,7 @@ static const vsc_row mesh_rows[] = {
     {"unit", UNIT(vsc_scene, mesh_unit, VSC_LENGTH), .needed = VSC_ALWAYS, .text = "mm",
      .meaning = "length of one unit of its coordinates: mm, m, 0.1 mm"},
     {"region_array", NAME(vsc_scene, definition.region_array), .commented = true, .text = "region",
-     .meaning = "cell array of region numbers; absent: one region, 0"},
+     .meaning = "cell array of region numbers, whole ones; absent: one region, 0"},
     {"order", .kind = VSC_ROW_WHOLE_INT, AT(vsc_scene, mesh_order), .text = "1",
      .meaning = "2: tetrahedra become quadratic ones, with a node in the middle of each edge"},
     {"curved", PARTS(vsc_scene, curved, curved_count, curved), .commented = true,

@@ -31,7 +31,7 @@ static const vsc_row vsc_node_set_group_rows[] = {
      .meaning = "by a point array: the nodes with the value below (order: 2: and between two of them)"},
     {"triangle_array", NAME(vsc_selector, array), .selects = 1 + VSC_SELECT_TRIANGLE_ARRAY,
      .commented = true, .text = "surface",
-     .meaning = "or by a cell array: the file's triangles with that value"},
+     .meaning = "or by a cell array: the file's triangles with that value (surfaces: faces of the boundary)"},
     {"value", .kind = VSC_ROW_BOTH, .quantity = VSC_NUMBER, AT(vsc_selector, low),
      .allowed = OF_ARRAYS, .input_only = true, .text = "1", .meaning = "of the array"},
     {"range", .kind = VSC_ROW_VECTOR, .quantity = VSC_NUMBER, AT(vsc_selector, low), .count = 2,
@@ -83,7 +83,7 @@ static const vsc_word sources[] = {
 
 static const vsc_row map_rows[] = {
     {"file", .kind = VSC_ROW_PATH, AT(vsc_angle_map_def, file), .text = "angles.vti",
-     .meaning = "image of the two angles; relative to this scene's folder"},
+     .meaning = "image of the two angles, on its points or its cells; relative to this scene's folder"},
     {"length_unit", UNIT(vsc_angle_map_def, length_unit, VSC_LENGTH), .text = "mm",
      .meaning = "of its origin and spacing"},
     {"azimuth", NAME(vsc_angle_map_def, azimuth), .text = "azimuth",

@@ -348,11 +348,13 @@ vsc_status read_image(const char *file, double unit, vsc_image **image, vsc_erro
   if (grid == nullptr) return fail_read(file, quiet, error);
 
   const bool on_cells = grid->GetPointData()->GetNumberOfArrays() == 0;
-  size_t size[3], places = 1;
+  size_t size[3], places = 1, cells = 1;
   for (int axis = 0; axis < 3; axis++) {
     const int points = grid->GetDimensions()[axis];
-    size[axis] = (size_t)(on_cells && points > 1 ? points - 1 : points);
+    const size_t between = (size_t)(points > 1 ? points - 1 : points);
+    size[axis] = on_cells ? between : (size_t)points;
     places *= size[axis];
+    cells *= between;
   }
   if (places == 0) return vsc_fail(error, VSC_INPUT, "%s: holds no voxels: write it again", file);
   owned_image made(vsc_image_create(size), vsc_image_free);
@@ -361,6 +363,8 @@ vsc_status read_image(const char *file, double unit, vsc_image **image, vsc_erro
   vtkDataSetAttributes *data = grid->GetPointData();
   if (on_cells) data = grid->GetCellData();
   if (status == VSC_OK) status = add_arrays(file, data, places, nullptr, &made->data, error);
+  if (status == VSC_OK && !on_cells)
+    status = add_arrays(file, grid->GetCellData(), cells, nullptr, &made->cell_data, error);
   if (status == VSC_OK && made->data.count == 0)
     status = vsc_fail(error, VSC_INPUT, "%s: holds no numeric arrays: write it with data", file);
   if (status == VSC_OK) *image = made.release();

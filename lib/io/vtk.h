@@ -17,14 +17,14 @@
 // triangles; other points, lines and faces are counted and ignored, other volumes are VSC_INPUT. Wedges are expected as
 // VTK draws them, the first triangle turning counter-clockwise seen from outside; others are turned.
 // Every numeric point array comes as node data, every numeric cell array as element data and as
-// triangle data. VSC_INPUT with the file's name for a missing, truncated, empty or foreign file,
+// triangle data, `single` where it is Float32. VSC_INPUT with the file's name for a missing, truncated, empty or foreign file,
 // arrays of the wrong length and all that vsc_mesh_clean refuses. The caller owns *mesh.
 vsc_status vsc_vtk_read_mesh(const char *file, double unit, vsc_mesh **mesh, vsc_error *error);
 
 // Reads an image (.vti, or legacy .vtk structured points), origin, spacing and direction honoured,
-// lengths multiplied by `unit`. Point and cell arrays both come (cell arrays on the image of cell
-// centres); a file that has both kinds with data is read by its point arrays. Errors as above; an
-// image without numeric arrays is one. The caller owns *image.
+// lengths multiplied by `unit`. A file with arrays on its cells alone comes as the image of the cells' centres; of one
+// with both kinds those on cells come as cell_data (vsc_image_take_cells). Errors as above; an image without numeric
+// arrays is one. The caller owns *image.
 vsc_status vsc_vtk_read_image(const char *file, double unit, vsc_image **image, vsc_error *error);
 
 // What an array to write lies on.
@@ -53,7 +53,7 @@ typedef struct vsc_vtk_array {
 vsc_status vsc_vtk_write_mesh(const char *file, const vsc_mesh *mesh, size_t array_count,
                               const vsc_vtk_array *arrays, bool double_precision, vsc_error *error);
 
-// Writes an image with all its arrays as .vti, in the same way; arrays are Float32.
+// Writes an image with its data, without cell_data, as .vti, in the same way; arrays are Float32.
 vsc_status vsc_vtk_write_image(const char *file, const vsc_image *image, vsc_error *error);
 
 #endif

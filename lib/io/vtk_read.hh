@@ -224,6 +224,7 @@ inline vsc_status add_arrays(const char *file, vtkDataSetAttributes *attributes,
     vsc_array *copy =
       vsc_arrays_add(arrays, array->GetName(), array->GetNumberOfComponents(), tuples);
     if (copy == nullptr) return vsc_fail_memory(error, "the mesh's arrays");
+    copy->single = array->GetDataType() == VTK_FLOAT;
     copy_array(array, tuples, picks, copy->values);
   }
   return VSC_OK;

@@ -20,7 +20,22 @@ void vsc_image_free(vsc_image *image)
 {
   if (image == NULL) return;
   vsc_arrays_free(&image->data);
+  vsc_arrays_free(&image->cell_data);
   vsc_free(image);
+}
+
+void vsc_image_take_cells(vsc_image *image)
+{
+  double first[3], origin[3];
+  for (int axis = 0; axis < 3; axis++) {
+    first[axis] = image->size[axis] > 1 ? 0.5 : 0;
+    if (image->size[axis] > 1) image->size[axis]--;
+  }
+  vsc_image_position(image, first, origin);
+  for (int axis = 0; axis < 3; axis++) image->origin[axis] = origin[axis];
+  vsc_arrays_free(&image->data);
+  image->data = image->cell_data;
+  image->cell_data = (vsc_arrays){0};
 }
 
 void vsc_image_position(const vsc_image *image, const double index[3], double position[3])

@@ -19,6 +19,7 @@ typedef struct vsc_array {
   int components;  // numbers per tuple
   size_t tuples;   // one per node, element or triangle
   double *values;  // tuples x components, owned
+  bool single;     // the file had them in single precision (Float32): 0.7 there is not the double 0.7
 } vsc_array;
 
 typedef struct vsc_arrays {

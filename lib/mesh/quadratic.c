@@ -34,6 +34,7 @@ static bool raise_array(const vsc_array *from, const vsc_edges *edges, vsc_array
   vsc_array *array = vsc_arrays_add(to, from->name, from->components, from->tuples + edges->count);
   const size_t width = (size_t)from->components;
   if (array == NULL) return false;
+  array->single = from->single;
   memcpy(array->values, from->values, from->tuples * width * sizeof *from->values);
   double *middle = array->values + from->tuples * width;
   for (size_t k = 0; k < edges->count; k++)
@@ -49,6 +50,7 @@ static bool copy_arrays(const vsc_arrays *from, vsc_arrays *to)
     const vsc_array *array = &from->items[a];
     vsc_array *copy = vsc_arrays_add(to, array->name, array->components, array->tuples);
     if (copy == NULL) return false;
+    copy->single = array->single;
     memcpy(copy->values, array->values,
            array->tuples * (size_t)array->components * sizeof *array->values);
   }

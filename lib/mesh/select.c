@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/select.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -96,9 +97,15 @@ static vsc_status find_array(const vsc_arrays *arrays, const char *kind,
   return VSC_OK;
 }
 
-static bool takes(const vsc_selector *selector, double value)
+// A bound as the numbers of the array are.
+static double rounded(const vsc_array *array, double bound)
 {
-  return value >= selector->low && value <= selector->high;
+  return array->single && fabs(bound) <= FLT_MAX ? (double)(float)bound : bound;
+}
+
+bool vsc_selector_takes(const vsc_selector *selector, const vsc_array *array, double value)
+{
+  return value >= rounded(array, selector->low) && value <= rounded(array, selector->high);
 }
 
 // Nodes that vsc_mesh_raise put in the middle of edges have no value of their own, but a mean: they are taken
@@ -122,7 +129,7 @@ static vsc_status mark_node_array(const vsc_mesh *mesh, const vsc_selector *sele
   const vsc_array *array;
   const vsc_status status = find_array(&mesh->node_data, "node", selector, &array, error);
   if (status != VSC_OK) return status;
-  for (size_t i = 0; i < mesh->node_count; i++) marked[i] = takes(selector, array->values[i]);
+  for (size_t i = 0; i < mesh->node_count; i++) marked[i] = vsc_selector_takes(selector, array, array->values[i]);
   if (vsc_mesh_is_quadratic(mesh)) mark_middles(mesh, marked);
   return VSC_OK;
 }
@@ -139,7 +146,7 @@ static vsc_status mark_triangle_array(const vsc_mesh *mesh, const vsc_selector *
   const vsc_status status = find_array(&mesh->triangle_data, "triangle", selector, &array, error);
   if (status != VSC_OK) return status;
   for (size_t t = 0; t < mesh->triangle_count; t++)
-    if (takes(selector, array->values[t]))
+    if (vsc_selector_takes(selector, array, array->values[t]))
       for (int i = 0; i < 3; i++) {
         marked[mesh->triangles[3 * t + i]] = 1;
         if (mesh->triangle_mid != NULL) marked[mesh->triangle_mid[3 * t + i]] = 1;
@@ -244,7 +251,7 @@ static vsc_status fail_no_value(const vsc_arrays *arrays, const vsc_selector *se
     high = fmax(high, array->values[i]);
   }
   return vsc_fail(error, VSC_INPUT,
-                  "%s: no value of array %s lies in [%g, %g]: the array runs from %g to %g",
+                  "%s: no value of array %s lies in [%.9g, %.9g]: the array runs from %.9g to %.9g",
                   selector->name, selector->array, selector->low, selector->high, low, high);
 }
 

@@ -21,13 +21,14 @@ typedef enum vsc_select_kind {
 } vsc_select_kind;
 
 // Describes a set of nodes or, read as a surface, the boundary triangles all of whose nodes are in
-// that set (for VSC_SELECT_TRIANGLE_ARRAY: the boundary triangles that the file lists). Of quadratic
-// elements the corners of triangles decide, so that a surface does not depend on the order.
+// that set (for VSC_SELECT_TRIANGLE_ARRAY: the boundary triangles that the file lists, quadrilateral faces cut along
+// either diagonal). Of quadratic elements the corners of triangles decide, so that a surface does not depend on the order.
 typedef struct vsc_selector {
   char name[VSC_NAME];   // what supports and loads call it
   vsc_select_kind kind;
   char array[VSC_NAME];  // NODE_ARRAY, TRIANGLE_ARRAY: the array; SURFACE: the surface
-  double low, high;      // NODE_ARRAY, TRIANGLE_ARRAY: values taken, both ends included
+  double low, high;      // NODE_ARRAY, TRIANGLE_ARRAY: values taken, both ends included; of an array in single
+                         // precision both are rounded to that first
   double box_low[3];     // BOX: mm
   double box_high[3];    // BOX: mm
   double point[3];       // PLANE: a point of it, mm
@@ -49,6 +50,9 @@ typedef struct vsc_surface {
                         // are linear; owned
 } vsc_surface;
 
+// Whether a selector by array takes a value of the array.
+bool vsc_selector_takes(const vsc_selector *selector, const vsc_array *array, double value);
+
 // The boundary of the mesh: faces that belong to one element, turned outwards, in the order of
 // their elements; of a mesh without elements its triangles as they are. A quadrilateral is cut into
 // two triangles by the diagonal through its smallest node number, whichever element it belongs to.
@@ -61,7 +65,8 @@ vsc_status vsc_select_nodes(const vsc_mesh *mesh, const vsc_selector *selector,
                             const vsc_surface *surfaces, size_t surface_count, vsc_node_set *set,
                             vsc_error *error);
 
-// Finds the boundary triangles that `selector` describes; none is an error.
+// Finds the boundary triangles that `selector` describes; none is VSC_INPUT, and so are triangles of a triangle array
+// that are no faces of the boundary.
 vsc_status vsc_select_surface(const vsc_mesh *mesh, const vsc_surface *boundary,
                               const vsc_selector *selector, vsc_surface *surface, vsc_error *error);
 

@@ -165,7 +165,8 @@ static bool find_neighbours(const vsc_mesh *mesh, vsc_topology *topology)
     const size_t next = sides.next[k];
     if (next == k) continue;
     topology->neighbours[s->element][s->number] = (int32_t)sides.items[next].element;
-    topology->crowded_faces += next < k && sides.next[next] != k;
+    if (next > k || sides.next[next] == k) continue;
+    if (topology->crowded_faces++ == 0) topology->crowded_element = s->element;
   }
   free_sides(&sides);
   return listed;

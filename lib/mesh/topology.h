@@ -27,6 +27,7 @@ typedef struct vsc_topology {
   size_t crowded_faces;  // faces that three or more elements claim (they overlap): 0 in a sound
                          // mesh; such a face counts as inside, and each of its elements names the
                          // next of them as its neighbour
+  uint32_t crowded_element;  // one that claims such a face, where there is one
 } vsc_topology;
 
 // Fills `topology` for the elements of `mesh`; its content is owned by the caller. When memory is short

@@ -12,41 +12,6 @@
 #include "model/small_strain.h"
 #include "model/terms.h"
 
-// The material whose list of regions holds `region`; else the one without a list (inclusions have
-// none either, but no elements of their own); else -1.
-static int material_of_region(const vsc_definition *definition, double region)
-{
-  int rest = -1;
-  for (size_t m = 0; m < definition->material_count; m++) {
-    const vsc_material_def *material = &definition->materials[m];
-    if (material->region_count == 0 && vsc_takes_elements(definition, m)) rest = (int)m;
-    for (size_t r = 0; r < material->region_count; r++)
-      if (region == material->regions[r]) return (int)m;
-  }
-  return rest;
-}
-
-static vsc_status assign_materials(const vsc_mesh *mesh, const vsc_definition *definition,
-                                   uint32_t *material_of, vsc_error *error)
-{
-  const double *regions;
-  const vsc_status status =
-      vsc_terms_element_values(mesh, definition->region_array, "mesh.region_array", &regions, error);
-  if (status != VSC_OK) return status;
-  for (size_t t = 0; t < mesh->element_count; t++) {
-    const double region = regions ? regions[t] : 0;
-    const int material = material_of_region(definition, region);
-    if (material < 0)
-      return vsc_fail(
-          error, VSC_INPUT,
-          "materials: element %u has region %g, which no material names: add the region to a "
-          "material's `regions` or give one material without `regions`",
-          mesh->element_source[t], region);
-    material_of[t] = (uint32_t)material;
-  }
-  return VSC_OK;
-}
-
 // Appends the further axes and pairs of a material to the model's.
 static void copy_axes(const vsc_material_def *def, vsc_material *material, vsc_model *model)
 {
@@ -432,7 +397,7 @@ static vsc_status build(const vsc_mesh *mesh, const vsc_mesh *shown, const vsc_a
   model->solve = complete_solve(definition);
   model->masses = definition->masses;
   vsc_status status = check_order(mesh, definition, error);
-  if (status == VSC_OK) status = assign_materials(mesh, definition, material_of, error);
+  if (status == VSC_OK) status = vsc_terms_materials(mesh, definition, material_of, error);
   if (status == VSC_OK) status = build_materials(definition, model, error);
   if (status == VSC_OK) status = vsc_terms_selections(shown, definition, model, error);
   if (status == VSC_OK)

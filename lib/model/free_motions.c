@@ -192,31 +192,72 @@ static int free_motions_of(part *own, gsl_eigen_symmv_workspace *work, char *tex
   return count;
 }
 
-static void say_where(const body *body, const part *own, char *text, size_t size)
+// "48 elements with node 3 at (0, 0, 7) mm"
+static void say_part(const body *body, const part *own, char *text, size_t size)
 {
   const double *place = body->model->rest + 4 * (size_t)own->first;
-  const size_t length = strlen(text), count = own->elements > 0 ? own->elements : own->nodes;
-  snprintf(text + length, size - length,
-           " in a part of it, %zu %s with node %u at (%.4g, %.4g, %.4g) mm, that is joined to nothing else", count,
-           own->elements > 0 ? "elements" : "nodes", body->model->mesh_node[own->first], place[0], place[1], place[2]);
+  const size_t count = own->elements > 0 ? own->elements : own->nodes;
+  snprintf(text, size, "%zu %s with node %u at (%.4g, %.4g, %.4g) mm", count, own->elements > 0 ? "elements" : "nodes",
+           body->model->mesh_node[own->first], place[0], place[1], place[2]);
+}
+
+static void say_where(const body *body, const part *own, char *text, size_t size)
+{
+  char what[VSC_FREE_TEXT];
+  const size_t length = strlen(text);
+  say_part(body, own, what, sizeof what);
+  snprintf(text + length, size - length, " in a part of it, %s, that is joined to nothing else", what);
+}
+
+// The parts and what holds them; false when memory is short. To be closed in any case.
+static bool open_body(const vsc_model *model, body *body)
+{
+  body->model = model;
+  if (!find_parts(body)) return false;
+  add_supports(body);
+  for (size_t k = 0; k < model->robin_count; k++) add_robin(body, &model->robins[k]);
+  return true;
+}
+
+static void close_body(body *body)
+{
+  vsc_free(body->parts);
+  vsc_free(body->part_of);
 }
 
 int vsc_free_motions(const vsc_model *model, char *text, size_t size)
 {
-  body body = {.model = model};
+  body body = {0};
   int count = 0;
   text[0] = '\0';
   gsl_eigen_symmv_workspace *work = gsl_eigen_symmv_alloc(MOTIONS);
-  if (work != NULL && find_parts(&body)) {
-    add_supports(&body);
-    for (size_t k = 0; k < model->robin_count; k++) add_robin(&body, &model->robins[k]);
-    for (size_t k = 0; k < body.part_count && count == 0; k++) {
-      count = free_motions_of(&body.parts[k], work, text, size);
-      if (count > 0 && body.part_count > 1) say_where(&body, &body.parts[k], text, size);
-    }
+  const bool made = work != NULL && open_body(model, &body);
+  for (size_t k = 0; k < body.part_count && made && count == 0; k++) {
+    count = free_motions_of(&body.parts[k], work, text, size);
+    if (count > 0 && body.part_count > 1) say_where(&body, &body.parts[k], text, size);
   }
   gsl_eigen_symmv_free(work);
-  vsc_free(body.parts);
-  vsc_free(body.part_of);
+  close_body(&body);
+  return count;
+}
+
+// Whether no direction of any of its nodes is held, and no spring acts on them.
+static bool is_loose(const part *own)
+{
+  for (int a = 0; a < MOTIONS; a++)
+    if (own->G[(MOTIONS + 1) * a] > 0) return false;
+  return true;
+}
+
+size_t vsc_loose_parts(const vsc_model *model, size_t *parts, char *text, size_t size)
+{
+  body body = {0};
+  size_t count = 0;
+  text[0] = '\0';
+  const bool made = open_body(model, &body);
+  for (size_t k = 0; k < body.part_count && made; k++)
+    if (is_loose(&body.parts[k]) && count++ == 0) say_part(&body, &body.parts[k], text, size);
+  *parts = made ? body.part_count : 0;
+  close_body(&body);
   return count;
 }

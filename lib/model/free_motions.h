@@ -15,4 +15,9 @@
 enum { VSC_FREE_TEXT = 240 };
 int vsc_free_motions(const vsc_model *model, char *text, size_t size);
 
+// How many of these parts nothing holds at all, so that all six motions are free; *parts is the number of all parts.
+// `text` (as above) tells where the first such part is: "48 elements with node 3 at (0, 0, 7) mm". Obstacles do not
+// count. 0 parts when memory is short.
+size_t vsc_loose_parts(const vsc_model *model, size_t *parts, char *text, size_t size);
+
 #endif

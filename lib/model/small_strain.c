@@ -35,6 +35,45 @@ double vsc_material_shear(const vsc_model *model, const vsc_material *material)
   return most + material->rest_shear;
 }
 
+static bool are_alike(const double three[3])
+{
+  return three[0] == three[1] && three[1] == three[2];
+}
+
+bool vsc_depends_on_direction(const vsc_model *model, const vsc_material *material)
+{
+  const vsc_paper_def *paper = &material->paper;
+  double D[36], lambda = 0, mu = 0, largest = 0, off = 0;
+  if (material->law == VSC_LAW_CLASSICAL) return false;
+  if (material->law == VSC_LAW_PAPER)
+    return !are_alike(paper->axial) || !are_alike(paper->angular) || !are_alike(paper->damping);
+  vsc_rest_tangent(model, material, D);
+  for (int a = 0; a < 3; a++) {
+    lambda += D[6 * a + (a + 1) % 3] / 3;
+    mu += D[7 * (3 + a)] / 3;
+  }
+  for (int k = 0; k < 6; k++)
+    for (int l = 0; l < 6; l++) {
+      const double normal = k < 3 && l < 3 ? lambda : 0, own = k != l ? 0 : k < 3 ? 2 * mu : mu;
+      largest = fmax(largest, fabs(D[6 * k + l]));
+      off = fmax(off, fabs(D[6 * k + l] - normal - own));
+    }
+  return off > 0.01 * largest || !are_alike(material->damping);
+}
+
+size_t vsc_undirected_elements(const vsc_model *model)
+{
+  size_t count = 0;
+  for (size_t p = 0; p < model->patch_count; p++) {
+    const vsc_patch *patch = &model->patches[p];
+    if (!vsc_patch_is_solid(patch) || !vsc_depends_on_direction(model, &model->materials[patch->material])) continue;
+    const size_t first = VSC_WIDTH * (size_t)patch->first_pack;
+    for (size_t slot = first; slot < first + VSC_WIDTH * (size_t)patch->pack_count; slot++)
+      count += model->mesh_element[slot] != VSC_NO_ELEMENT && !model->known[slot];
+  }
+  return count;
+}
+
 double vsc_material_stiffest(const vsc_model *model, const vsc_material *material)
 {
   double D[36], eigenvalues[6], most = -INFINITY;

@@ -15,6 +15,13 @@ void vsc_rest_tangent(const vsc_model *model, const vsc_material *material, doub
 // whose constants are none of a material.
 double vsc_material_shear(const vsc_model *model, const vsc_material *material);
 
+// Whether the passive material acts otherwise along f than along s or n: by D, to 1 %, or by its axial damping. Law
+// PAPER by its constants; CLASSICAL, which has no axes, never does.
+bool vsc_depends_on_direction(const vsc_model *model, const vsc_material *material);
+
+// How many elements of such materials have no known fibre, so that their axes are the global ones.
+size_t vsc_undirected_elements(const vsc_model *model);
+
 // Largest stiffness of the passive material at rest, kPa: the energy of a change dG of the axes is at
 // most this times |dG|^2 / 2, volume energy aside. The largest eigenvalue of D with E's own
 // components (|E| <= |dG|), and 2 m.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model/terms.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -22,6 +23,51 @@ vsc_status vsc_terms_element_values(const vsc_mesh *mesh, const char *name, cons
   return vsc_fail(error, VSC_INPUT,
                   "%s: the mesh has no cell array '%s' with one number per element%s", key, name,
                   hint);
+}
+
+// The material whose list of regions holds `region`; else the one without a list (inclusions have
+// none either, but no elements of their own); else -1.
+static int material_of_region(const vsc_definition *definition, double region)
+{
+  int rest = -1;
+  for (size_t m = 0; m < definition->material_count; m++) {
+    const vsc_material_def *material = &definition->materials[m];
+    if (material->region_count == 0 && vsc_takes_elements(definition, m)) rest = (int)m;
+    for (size_t r = 0; r < material->region_count; r++)
+      if (region == material->regions[r]) return (int)m;
+  }
+  return rest;
+}
+
+static bool is_region(double number)
+{
+  return isfinite(number) && number >= INT_MIN && number <= INT_MAX && number == floor(number);
+}
+
+vsc_status vsc_terms_materials(const vsc_mesh *mesh, const vsc_definition *definition, uint32_t *material_of,
+                               vsc_error *error)
+{
+  const double *regions;
+  const vsc_status status =
+      vsc_terms_element_values(mesh, definition->region_array, "mesh.region_array", &regions, error);
+  if (status != VSC_OK) return status;
+  for (size_t t = 0; t < mesh->element_count; t++) {
+    const double region = regions ? regions[t] : 0;
+    if (!is_region(region))
+      return vsc_fail(error, VSC_INPUT,
+                      "mesh.region_array: element %u has %.10g in array '%s', and regions are whole numbers from %d to "
+                      "%d: correct the array, or name another",
+                      mesh->element_source[t], region, definition->region_array, INT_MIN, INT_MAX);
+    const int material = material_of_region(definition, region);
+    if (material < 0)
+      return vsc_fail(
+          error, VSC_INPUT,
+          "materials: element %u has region %g, which no material names: add the region to a "
+          "material's `regions` or give one material without `regions`",
+          mesh->element_source[t], region);
+    material_of[t] = (uint32_t)material;
+  }
+  return VSC_OK;
 }
 
 static vsc_status fill_activation(const vsc_mesh *mesh, const vsc_definition *definition, size_t m,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parts of the model that come after its elements: masses, volume groups, activation, named
+// The parts of the model beside its elements: their materials, masses, volume groups, activation, named
 // sets, supports and loads. Internal to the model room; called by vsc_model_build.
 #ifndef VSC_MODEL_TERMS_H
 #define VSC_MODEL_TERMS_H
@@ -12,6 +12,11 @@
 // VSC_INPUT with the `key` that names it.
 vsc_status vsc_terms_element_values(const vsc_mesh *mesh, const char *name, const char *key,
                                 const double **values, vsc_error *error);
+
+// material_of[e], for each of the mesh's elements: the material that names its region, or the one that takes the rest.
+// VSC_INPUT for a region that no material takes and for numbers that are no region: not whole, or beyond an int.
+vsc_status vsc_terms_materials(const vsc_mesh *mesh, const vsc_definition *definition, uint32_t *material_of,
+                               vsc_error *error);
 
 // amplitude and delay of each slot, where a material names cell arrays or is active in elements
 // without a known fibre (amplitude 0: passive).

@@ -11,53 +11,11 @@
 #include "mech/prony.h"
 #include "mech/step_limit.h"
 #include "mech/tangent.h"
-#include "mesh/quality.h"
 #include "mesh/surface.h"
 #include "model/law_constants.h"
 #include "model/small_strain.h"
+#include "run/check_mesh.h"
 #include "solve/explicit.h"
-
-static void say_mesh(const vsc_problem *problem, FILE *out)
-{
-  const vsc_mesh *mesh = problem->mesh;
-  const vsc_mesh_report *report = &mesh->report;
-  double low[3], high[3];
-  vsc_mesh_box(mesh, low, high);
-  char kinds[128];
-  fprintf(out, "mesh       %s: %zu nodes, %s, %zu triangles; 1 unit = %g mm\n",
-          problem->scene->mesh_file, mesh->node_count,
-          vsc_mesh_kinds_text(mesh, kinds, sizeof kinds), mesh->triangle_count,
-          problem->scene->mesh_unit);
-  fprintf(out, "size       %.4g x %.4g x %.4g mm from (%.4g, %.4g, %.4g); tissue %.4g ml, %.4g g\n",
-          high[0] - low[0], high[1] - low[1], high[2] - low[2], low[0], low[1], low[2],
-          1e-3 * problem->model->total_volume, 1e-3 * problem->model->total_mass);
-  if (report->turned_elements + report->unused_nodes + report->ignored_cells + report->loose_triangles >
-      0)
-    fprintf(out,
-            "set right  %zu left-handed elements turned, %zu unused nodes dropped, %zu loose triangles "
-            "dropped, "
-            "%zu other cells ignored%s%s\n",
-            report->turned_elements, report->unused_nodes, report->loose_triangles,
-            report->ignored_cells, report->ignored_kinds[0] ? ": " : "", report->ignored_kinds);
-}
-
-static vsc_status say_quality(const vsc_problem *problem, FILE *out, vsc_error *error)
-{
-  vsc_quality_summary q;
-  const vsc_status status = vsc_mesh_quality(problem->mesh, &q, error);
-  if (status != VSC_OK) return status;
-  fprintf(out,
-          "quality    shape %.2f (5 %% below %.2f, %zu poor); dihedral %.1f to %.1f deg; "
-          "edges %.3g to %.3g mm\n",
-          q.shape_mean, q.shape_p5, q.poor, q.min_dihedral, q.max_dihedral,
-          q.shortest_edge, q.longest_edge);
-  fprintf(out, "worst     ");
-  for (size_t k = 0; k < q.worst_count && k < 3; k++)
-    fprintf(out, " element %u (%.2f) at (%.4g, %.4g, %.4g)%s", q.worst_source[k],
-            q.worst[k].shape, q.worst_centre[k][0], q.worst_centre[k][1], q.worst_centre[k][2],
-            k + 1 < q.worst_count && k < 2 ? "," : "\n");
-  return VSC_OK;
-}
 
 static void say_surface(const vsc_problem *problem, const vsc_surface *surface, FILE *out)
 {
@@ -123,10 +81,12 @@ static void say_fibers(const vsc_problem *problem, FILE *out)
   const vsc_fiber_def *def = &problem->scene->fibers;
   fprintf(
       out,
-      "fibres     %s%s%s: %zu of %zu elements (%.1f %%), %zu filled from neighbours, %zu passive\n",
+      "fibres     %s%s%s: %zu of %zu elements (%.1f %%), %zu filled from neighbours, %zu passive",
       vsc_fiber_source_name(def->source), def->source == VSC_FIBER_MAP ? " " : "",
       def->source == VSC_FIBER_MAP ? def->map.file : "", f->with_data, f->elements,
       100.0 * (double)f->with_data / (double)f->elements, f->filled, f->passive);
+  if (f->invalid > 0) fprintf(out, "; of %zu the fibre vector is zero or not finite", f->invalid);
+  fputc('\n', out);
   if (def->source == VSC_FIBER_NONE) return;
   fprintf(out,
           "angles     azimuth %.0f, %.0f, %.0f deg; elevation %.0f, %.0f, %.0f deg (10, 50, 90 %%)",
@@ -448,9 +408,7 @@ vsc_status vsc_check(const vsc_problem *problem, FILE *stream, int *warnings, vs
 {
   const vsc_model *model = problem->model;
   fprintf(stream, "scene      %s\n", problem->scene->file);
-  say_mesh(problem, stream);
-  vsc_status status =
-      problem->mesh->element_count > 0 ? say_quality(problem, stream, error) : VSC_OK;
+  vsc_status status = vsc_check_mesh(problem, stream, error);
   if (status != VSC_OK) return status;
   for (size_t s = 0; s < model->surface_count; s++)
     say_surface(problem, &model->surfaces[s], stream);
@@ -470,7 +428,7 @@ vsc_status vsc_check(const vsc_problem *problem, FILE *stream, int *warnings, vs
   else
     status = say_newton(problem, stream, error);
   if (status == VSC_OK) {
-    const int found = vsc_check_warnings(problem, stream, "warning    ");
+    const int found = vsc_check_warnings(problem, true, stream, "warning    ");
     if (found == 0) fprintf(stream, "warnings   none\n");
     if (warnings) *warnings = found;
   }

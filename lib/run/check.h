@@ -13,7 +13,8 @@
 // *warnings (may be NULL) is their number. Fails as vsc_start does.
 vsc_status vsc_check(const vsc_problem *problem, FILE *stream, int *warnings, vsc_error *error);
 
-// Only the warnings, to `stream`, each with `prefix` before it. Returns their number.
-int vsc_check_warnings(const vsc_problem *problem, FILE *stream, const char *prefix);
+// Only the warnings, to `stream`, each with `prefix` before it; those that would cost a run time only when `thorough`.
+// Returns their number.
+int vsc_check_warnings(const vsc_problem *problem, bool thorough, FILE *stream, const char *prefix);
 
 #endif

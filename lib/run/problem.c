@@ -7,6 +7,7 @@
 
 #include "base/mem.h"
 #include "io/vtk.h"
+#include "model/small_strain.h"
 #include "run/job.h"
 #include "run/prestress.h"
 #include "solve/mass_scaling.h"
@@ -170,10 +171,25 @@ static vsc_status read_problem(const char *file, const char *const *settings, si
   return status == VSC_OK ? vsc_in_scene(file, make_vessels(problem, error), error) : status;
 }
 
+// Arrays that hold no fibre at all were meant to give directions.
+static vsc_status check_fibers(const vsc_problem *problem, vsc_error *error)
+{
+  const vsc_fiber_report *report = &problem->fibers;
+  const vsc_fiber_def *def = &problem->scene->fibers;
+  if (def->source != VSC_FIBER_ARRAYS || report->passive < report->elements) return VSC_OK;
+  const size_t undirected = vsc_undirected_elements(problem->model);
+  if (undirected == 0) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT,
+                  "fibers.arrays.fiber: none of the vectors of '%s' is a direction (of %zu elements they are zero or not "
+                  "finite), and the material of %zu elements depends on it: correct the array or name another",
+                  def->fiber_array, report->invalid, undirected);
+}
+
 static vsc_status build_problem(vsc_problem *problem, vsc_error *error)
 {
   const vsc_definition *definition = &problem->scene->definition;
   vsc_status status = vsc_model_build(problem->mesh, problem->axes, definition, &problem->model, error);
+  if (status == VSC_OK) status = check_fibers(problem, error);
   if (status == VSC_OK) status = vsc_scale_masses(problem->model, definition, error);
   if (status == VSC_OK) status = vsc_frames_check(problem, error);
   return vsc_in_scene(problem->scene->file, status, error);

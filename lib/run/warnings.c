@@ -5,6 +5,7 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
+#include "mesh/topology.h"
 #include "model/free_motions.h"
 #include "model/small_strain.h"
 #include "run/check.h"
@@ -132,13 +133,35 @@ static void warn_membranes(writer *w, const vsc_problem *problem)
   }
 }
 
+// Elements without a fibre: those that cannot contract, and those whose global axes matter.
+static void warn_no_fibre(writer *w, const vsc_problem *problem)
+{
+  const vsc_fiber_report *f = &problem->fibers;
+  const vsc_fiber_def *def = &problem->scene->fibers;
+  const bool active = problem->model->terms.active != VSC_ACTIVE_NONE && f->passive > 0;
+  const size_t undirected = vsc_undirected_elements(problem->model);
+  const char *remedy = def->fill ? "" : "; `fill: true` takes them from their neighbours";
+  char global[128] = "";
+  if (!active && undirected == 0) return;
+  if (def->source != VSC_FIBER_MAP && def->source != VSC_FIBER_ARRAYS) remedy = "";
+  if (def->source == VSC_FIBER_NONE) remedy = "; where that is meant, fibers.source: constant says so";
+  if (undirected > 0)
+    snprintf(global, sizeof global, "; in %zu of them the material depends on direction, and its f, s, n are global x, y, z",
+             undirected);
+  warn(w, "fibers: %zu of %zu elements have no fibre%s%s%s", f->passive, f->elements, active ? " and stay passive" : "",
+       remedy, global);
+}
+
 static void warn_fibers(writer *w, const vsc_problem *problem)
 {
   const vsc_fiber_report *f = &problem->fibers;
   const vsc_fiber_def *def = &problem->scene->fibers;
-  if (problem->model->terms.active != VSC_ACTIVE_NONE && f->passive > 0)
-    warn(w, "fibers: %zu of %zu elements have no fibre and stay passive%s", f->passive, f->elements,
-         def->fill ? "" : "; `fill: true` takes them from their neighbours");
+  warn_no_fibre(w, problem);
+  if (f->invalid_sheets > 0)
+    warn(w,
+         "fibers: the sheet vectors of %zu of %zu elements are zero, not finite or along the fibre: their sheet is made of "
+         "the global axis that is most across the fibre",
+         f->invalid_sheets, f->elements);
   if (def->source == VSC_FIBER_MAP && f->filled > f->elements / 10)
     warn(w,
          "fibers: %.0f %% of the elements took their fibre from neighbours: does the map cover the "
@@ -159,9 +182,9 @@ static void warn_fibers(writer *w, const vsc_problem *problem)
   if (f->constant)
     warn(w, "fibers: the array holds one and the same direction everywhere: perhaps a dummy");
   if (!def->sense_kept && f->opposed > f->elements / 50)
-    warn(w, "fibers: within %.0f %% of the elements the vectors on the nodes differ by more than 90 degrees; taken as axes "
-         "they turn the short way round. Where a rule has made them, and their sense is meant, say "
-         "fibers.arrays.sense: kept; else the mesh is too coarse for them",
+    warn(w, "fibers: within %.0f %% of the elements the vectors on the nodes differ by 90 to 170 degrees; taken as axes "
+         "they turn the short way round, by 10 to 90, as is right where their signs mean nothing. Where a rule has made "
+         "them, and their sense is meant, say fibers.arrays.sense: kept",
          100.0 * (double)f->opposed / (double)f->elements);
   if (f->worst_sheet_angle > 5)
     warn(w, "fibers: sheet and fibre are up to %.0f degrees off a right angle: perhaps dummies",
@@ -223,6 +246,29 @@ static void warn_prestress(writer *w, const vsc_problem *problem)
          def->time);
 }
 
+// Parts of a moving body that nothing holds beside others: of one that is whole that may be meant.
+static void warn_parts(writer *w, const vsc_model *model)
+{
+  char where[VSC_FREE_TEXT];
+  size_t parts;
+  const size_t loose = vsc_loose_parts(model, &parts, where, sizeof where);
+  if (parts > 1 && loose > 0)
+    warn(w, "mesh: the body is in %zu parts that are not joined, and nothing holds %zu of them, as %s: are nodes at one "
+         "place not joined?",
+         parts, loose, where);
+}
+
+// Faces that only overlapping elements can share.
+static void warn_crowded(writer *w, const vsc_mesh *mesh)
+{
+  vsc_topology topology = {0};
+  if (vsc_topology_make(mesh, &topology, NULL) == VSC_OK && topology.crowded_faces > 0)
+    warn(w, "mesh: three elements or more share a face, %zu times, as with element %u: they overlap, or are "
+         "listed twice; remove what is double",
+         topology.crowded_faces, mesh->element_source[topology.crowded_element]);
+  vsc_topology_free(&topology);
+}
+
 static void warn_setting(writer *w, const vsc_problem *problem)
 {
   const vsc_model *model = problem->model;
@@ -237,8 +283,9 @@ static void warn_setting(writer *w, const vsc_problem *problem)
       model->solve.kind != VSC_SOLVE_EQUILIBRIUM)
     warn(w, "supports: nothing is held, so the load will carry the body away");
   char ways[VSC_FREE_TEXT];
-  const bool rests = model->solve.kind == VSC_SOLVE_EQUILIBRIUM;
-  if ((rests || problem->scene->prestress.loaded) && vsc_free_motions(model, ways, sizeof ways) > 0)
+  const bool rests = model->solve.kind == VSC_SOLVE_EQUILIBRIUM, balances = rests || problem->scene->prestress.loaded;
+  if (!balances) warn_parts(w, model);
+  if (balances && vsc_free_motions(model, ways, sizeof ways) > 0)
     warn(w, "%s: the body is free to %s, so forces that push it there never balance%s: hold it by supports or robin",
          rests ? "solve: equilibrium" : "prestress", ways,
          model->obstacle_count > 0 ? ", unless it touches obstacles from the start" : "");
@@ -254,9 +301,10 @@ static void warn_setting(writer *w, const vsc_problem *problem)
     warn(w, "materials: no damping, so vibrations never die away");
 }
 
-int vsc_check_warnings(const vsc_problem *problem, FILE *stream, const char *prefix)
+int vsc_check_warnings(const vsc_problem *problem, bool thorough, FILE *stream, const char *prefix)
 {
   writer w = {stream, prefix, 0};
+  if (thorough) warn_crowded(&w, problem->mesh);
   for (size_t m = 0; m < problem->model->material_count; m++)
     warn_material(&w, problem, m);
   warn_membranes(&w, problem);
