@@ -82,10 +82,34 @@ static void elements_may_be_ahead_of_the_run(void **state)
   }
 }
 
+// Masses that are all alike weigh as much where bodies fall; in equilibria a node weighs its part of the elements.
+static void equal_masses_weigh_alike_but_at_rest(void **state)
+{
+  (void)state;
+  for (int rests = 0; rests < 2; rests++) {
+    small_body body;
+    body_open(&body, block_of(2, 2, 2, 1, 0.1), 20);
+    body.definition.masses = VSC_MASS_EQUAL;
+    body.definition.solve.kind = rests ? VSC_SOLVE_EQUILIBRIUM : VSC_SOLVE_IMPLICIT;
+    body.definition.gravity[0] = 2;
+    body_build(&body);
+    double *lumped = calloc(body.mesh->node_count, sizeof *lumped);
+    for (size_t t = 0; t < body.mesh->element_count; t++)
+      for (int c = 0; c < 4; c++) lumped[body.mesh->corners[4 * t + (size_t)c]] += vsc_mesh_element_volume(body.mesh, t) / 4;
+    for (size_t n = 0; n < body.model->node_count; n++) {
+      const double mass = rests ? lumped[body.model->mesh_node[n]] : 8.0 / 27;
+      assert_close(body.model->weight[4 * n], 2 * mass, 1e-13, 0);
+    }
+    free(lumped);
+    body_close(&body);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(frames_must_be_orthonormal),
                                      cmocka_unit_test(every_tet_has_its_frame),
-                                     cmocka_unit_test(elements_may_be_ahead_of_the_run)};
+                                     cmocka_unit_test(elements_may_be_ahead_of_the_run),
+                                     cmocka_unit_test(equal_masses_weigh_alike_but_at_rest)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -426,7 +426,8 @@ static vsc_status build(const vsc_mesh *mesh, const vsc_mesh *shown, const vsc_a
   model->cycle = definition->cycle;
   model->cycle_tolerance = definition->cycle_tolerance;
   model->solve = complete_solve(definition);
-  model->masses = definition->masses;
+  // nothing but weight hangs on the masses of equilibria
+  model->masses = definition->solve.kind == VSC_SOLVE_EQUILIBRIUM ? VSC_MASS_LUMPED : definition->masses;
   vsc_status status = check_order(mesh, definition, error);
   if (status == VSC_OK) status = assign_materials(mesh, definition, material_of, error);
   if (status == VSC_OK) status = build_materials(definition, model, error);
