@@ -313,6 +313,51 @@ static void a_table_of_a_line_is_a_line(void **state)
   }
 }
 
+// However short a pulse is in its period, up to 2^20 places; what is fine enough with 8192 keeps them.
+static void short_pulses_of_a_period_are_seen(void **state)
+{
+  (void)state;
+  double times[] = {0, 1, 2, 60000}, values[] = {0, 1, 0, 0};
+  vsc_curve_def spike = table_of(4, times, values), pulse = vsc_default_curve(VSC_CURVE_HALF_SINE);
+  spike.period = 60000;
+  vsc_curve curve = build(&spike, 5);
+  // places 0.057 ms apart: f''/2 (0.029 ms)^2 = 2.5e-3, f'' = 6 at the peak
+  assert_true(curve.intervals == 1 << 20);
+  assert_close(vsc_curve_value(&curve, 1), 1, 0, 3e-3);
+  assert_close(vsc_curve_value(&curve, 60001), 1, 0, 3e-3);
+  assert_true(vsc_curve_value(&curve, 3) == 0);
+  vsc_curve_free(&curve);
+  pulse.duration = 20;
+  pulse.start = 100;
+  pulse.period = 10000;
+  curve = build(&pulse, 5);
+  // 1024 places and more in a pulse: (pi/1024)^2/8, but for pi/1024 at its ends
+  for (double time = 100.02; time < 119.98; time += 0.013)
+    assert_close(vsc_curve_value(&curve, time), half_sine(&pulse, time), 0, 1.2e-6);
+  assert_close(vsc_curve_peak(&curve), 1, 0, 1.2e-6);
+  vsc_curve_free(&curve);
+}
+
+static void usual_curves_keep_their_places(void **state)
+{
+  (void)state;
+  for (int kind = VSC_CURVE_CONSTANT; kind <= VSC_CURVE_BESTEL_PRESSURE; kind++) {
+    vsc_curve_def d = vsc_default_curve((vsc_curve_kind)kind);
+    const bool driven = kind == VSC_CURVE_BESTEL || kind == VSC_CURVE_BESTEL_PRESSURE;
+    double times[] = {0, 250, 300, 700}, values[] = {0, 1, 0.8, 0};
+    if (kind == VSC_CURVE_TABLE) d = table_of(4, times, values);
+    d.period = 800;
+    vsc_curve curve = build(&d, 5);
+    assert_true(curve.intervals == (kind == VSC_CURVE_CONSTANT ? 1 : driven ? 65536 : 8192));
+    vsc_curve_free(&curve);
+    if (!driven) continue;
+    d.period = 4000;
+    curve = build(&d, 5);
+    assert_true(curve.intervals == 4 * 65536);
+    vsc_curve_free(&curve);
+  }
+}
+
 static void refuse(size_t count, double *times, double *values, const char *words)
 {
   const vsc_curve_def d = table_of(count, times, values);
@@ -354,6 +399,8 @@ int main(void)
       cmocka_unit_test(not_a_number_is_no_index),
       cmocka_unit_test(a_table_goes_through_its_points_and_not_beyond),
       cmocka_unit_test(a_table_of_a_line_is_a_line),
+      cmocka_unit_test(short_pulses_of_a_period_are_seen),
+      cmocka_unit_test(usual_curves_keep_their_places),
       cmocka_unit_test(bad_tables_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

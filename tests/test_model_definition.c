@@ -195,6 +195,7 @@ SPOIL(gravity, d->gravity[1] = NAN)
 SPOIL(end_time, d->end_time = 0)
 SPOIL(step, d->step = -0.1)
 SPOIL(safety, d->safety = 0)
+SPOIL(masses, d->masses = VSC_MASS_CONSISTENT)
 
 static const struct {
   spoil *apply;
@@ -225,7 +226,8 @@ static const struct {
     {fibre_exponent, "materials[1].holzapfel_ogden.bf: 0: ", "above zero"},
     {rivlin, "materials[1].mooney_rivlin.c2: -0.5 kPa: ", "zero or more"},
     {westmann, "materials[1].veronda_westmann.c2: 0: ", "above zero"},
-    {active_tissue, "materials[0].active.kind: ", "kind: tension"},
+    {active_tissue, "materials[0].active.kind: \"spring\": ", "kind: tension"},
+    {masses, "masses: consistent: ", "masses: lumped"},
     {rest_stretch, "materials[1].active.rest_stretch: 0: ", "up to 1"},
     {stiffness, "materials[1].active.stiffness: ", "zero or more"},
     {delay, "materials[0].active.delay: ", "finite"},

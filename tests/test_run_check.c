@@ -146,6 +146,9 @@ static void test_warnings_about_materials(void **state)
   assert_warns("--set 'materials[0].volume_modulus=15 kPa'", "below the stiffest axial modulus");
   assert_warns("--set 'materials[0].damping={f: 0 Pa s, s: 0 Pa s, n: 0 Pa s}'",
                "vibrations never die away");
+  must("$V check block.yaml --set 'materials[0].damping={f: 0 Pa s, s: 0 Pa s, n: 0 Pa s}' "
+       "--set 'materials[0].prony=[{modulus: 0.5, time: 5 ms}]'");
+  assert_int_equal(warnings(), 0);
   assert_warns(
       "--set 'materials[1].name=ghost' --set 'materials[1].regions=[9]' "
       "--set 'materials[1].axial={f: 1 kPa, s: 1 kPa, n: 1 kPa}' --set 'materials[1].angular={fs: "
@@ -174,6 +177,9 @@ static void test_warnings_about_the_setting(void **state)
   assert_warns("--set 'pressures=[]' --set 'materials[0].active.kind=none'", "nothing will move");
   assert_warns("--set solve=equilibrium --set 'supports[0].held=[x]' --set 'obstacles=[{kind: plane, point: [0 mm, 0 mm, "
                "0 mm], normal: [0, 0, 1]}]'", "never balance, unless it touches obstacles from the start: hold it by");
+  assert_warns("--set solver.rho=0.2 --set solver.accuracy=1e-5",
+               "solve: explicit: solver.rho, solver.accuracy have no effect");
+  assert_warns("--set solve=equilibrium --set 'time.step=0.01 ms'", "solve: equilibrium: time.step has no effect");
   must("$V check block.yaml --set 'supports=[]' --set 'pressures=[]'");  // a free muscle carries
                                                                          // nothing away
   assert_int_equal(warnings(), 0);

@@ -31,6 +31,16 @@ static void test_repeated_with_shorter_steps(void **state)
   assert_true(strtod(summary("torn", "stretches_repeated_with_shorter_steps"), NULL) == 3);
 }
 
+// So viscous that no look is close enough where the support starts and stops: the run goes on, and its balance too.
+static void test_jerks_of_viscous_tissue(void **state)
+{
+  (void)state;
+  must("$V run jerk.yaml -q -o kicked --set 'materials[0].viscosity=500 Pa s' --set 'time.end=60 ms' "
+       "--set 'supports[1].motion=[2 mm, 0 mm, 0 mm]' "
+       "--set 'supports[1].curve={kind: half_sine, start: 50 ms, duration: 4 ms}'");
+  assert_string_equal(summary("kicked", "outcome"), "finished");
+}
+
 // A damped block that beats every 20 ms stops when a beat repeats the last, says so, and does the same when it
 // is stopped and resumed on the way; without a tolerance that it can reach it goes on to its end.
 static void test_cycles(void **state)
@@ -138,6 +148,7 @@ int main(void)
       cmocka_unit_test(test_repeated_with_shorter_steps),
       cmocka_unit_test(test_energy_made_by_implicit_steps),
       cmocka_unit_test(test_interrupted),
+      cmocka_unit_test(test_jerks_of_viscous_tissue),
       cmocka_unit_test(test_cycles),
       cmocka_unit_test(test_cycles_of_rest),
   };

@@ -63,6 +63,41 @@ static void nodes_follow_the_curve(void **state)
   body_close(&body);
 }
 
+// Where a half sine starts and ends its speed jumps, not at its top, nor at the end of the run; a pair of tanh has no jump.
+static void jumps_of_speed_are_seen(void **state)
+{
+  (void)state;
+  vsc_curve_def curve = half_sine(20);
+  for (int periodic = 0; periodic < 3; periodic++) {
+    small_body body;
+    if (periodic == 2) curve = vsc_default_curve(VSC_CURVE_TANH_PAIR);
+    curve.start = periodic == 2 ? 60 : 30;
+    curve.period = periodic == 1 ? 75 : 0;
+    open_bar(&body, &curve, 3);
+    body.definition.end_time = 120;
+    body_build(&body);
+    const bool kinks = periodic < 2;
+    assert_false(vsc_moving_jumps(body.model, 0, 29.9));
+    assert_int_equal(vsc_moving_jumps(body.model, 29, 30), kinks);
+    assert_int_equal(vsc_moving_jumps(body.model, 30, 31), kinks);
+    assert_false(vsc_moving_jumps(body.model, 30.1, 49.9));
+    assert_int_equal(vsc_moving_jumps(body.model, 49.5, 50.5), kinks);
+    assert_false(vsc_moving_jumps(body.model, 50.1, 99.9));
+    assert_int_equal(vsc_moving_jumps(body.model, 104.9, 105.1), periodic == 1);
+    assert_false(vsc_moving_jumps(body.model, 119, 120));
+    body_close(&body);
+  }
+  // a run that ends on the way
+  small_body body;
+  curve = half_sine(20);
+  curve.start = 10;
+  open_bar(&body, &curve, 3);
+  body.definition.end_time = 25;
+  body_build(&body);
+  assert_false(vsc_moving_jumps(body.model, 20, 25));
+  body_close(&body);
+}
+
 // Positions after 10 ms, mesh order; `jump` is how far the energy balance is off then, over the support's
 // work.
 static double *pull(const vsc_curve_def *curve, double dt, double damping, double *jump)
@@ -432,6 +467,7 @@ int main(void)
   vsc_parallel_set_threads(1);
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(nodes_follow_the_curve),
+      cmocka_unit_test(jumps_of_speed_are_seen),
       cmocka_unit_test(pulling_converges_with_order_two),
       cmocka_unit_test(damped_pulling_balances),
       cmocka_unit_test(other_methods_balance_too),

@@ -205,7 +205,8 @@ static const vsc_row vsc_scene_group_rows[] = {
     {"keep_volume", CHOICE(vsc_scene, definition.kept_volume, kept_volumes), .text = "none",
      .meaning = "to rounding, by multipliers: total, region (each material); node, element (explicit)"},
     {"masses", CHOICE(vsc_scene, definition.masses, mass_kinds), .text = "lumped",
-     .meaning = "of the nodes; or voronoi: of what is nearest; equal: all alike; consistent (solve: implicit)"},
+     .meaning = "of the nodes, and their weights but in equilibria (the elements'); or voronoi: of what is nearest; "
+                "equal: all alike; consistent (solve: implicit)"},
     {"membranes", SCENE_PARTS(membranes, membrane_count, vsc_membrane_group), .commented = true,
      .meaning = "sheets on surfaces: capsule, valve, cloth"},
     {"obstacles", SCENE_PARTS(obstacles, obstacle_count, vsc_obstacle_group), .commented = true,

@@ -69,7 +69,7 @@ static const vsc_row vsc_curve_group_rows[] = {
      .text = "[0 ms, 150 ms, 400 ms]", .meaning = "table without a file: its points,"},
     {"values", .kind = VSC_ROW_SERIES, .quantity = VSC_NUMBER,
      LIST_AT(vsc_curve_def, values, point_count), .allowed = TABLE, .commented = true,
-     .text = "[0, 1, 0]", .meaning = "and the values there"},
+     .text = "[0, 1, 0]", .meaning = "and the values there; between them a monotone spline (Steffen's), no straight lines"},
     {"period", QUANTITY(vsc_curve_def, period, VSC_TIME), .text = "800 ms",
      .meaning = "after which it repeats; default 0 ms: never"},
 };

@@ -127,8 +127,8 @@ static bool needs_general(const vsc_material *material)
           (material->active == VSC_ACTIVE_TENSION && !plain_tension));
 }
 
-static vsc_status copy_material(const vsc_material_def *def, const vsc_definition *definition,
-                                vsc_material *material, vsc_model *model, vsc_error *error)
+static void copy_material(const vsc_material_def *def, const vsc_definition *definition,
+                          vsc_material *material, vsc_model *model)
 {
   vsc_copy_name(material->name, def->name);
   material->density = def->density;
@@ -151,8 +151,6 @@ static vsc_status copy_material(const vsc_material_def *def, const vsc_definitio
   material->tension_parts[1] = def->active.normal_fraction;
   material->general = needs_general(material);
   material->delay = def->active.delay;
-  if (def->active.kind == VSC_ACTIVE_NONE) return VSC_OK;
-  return vsc_curve_build(&def->active.curve, definition->end_time, &material->curve, error);
 }
 
 static vsc_status build_materials(const vsc_definition *definition, vsc_model *model,
@@ -168,9 +166,7 @@ static vsc_status build_materials(const vsc_definition *definition, vsc_model *m
       !VSC_NEW(model->pairs, pairs))
     return vsc_fail_memory(error, "materials");
   for (size_t m = 0; m < model->material_count; m++) {
-    const vsc_status status = copy_material(&definition->materials[m], definition,
-                                            &model->materials[m], model, error);
-    if (status != VSC_OK) return status;
+    copy_material(&definition->materials[m], definition, &model->materials[m], model);
     const vsc_material *material = &model->materials[m];
     model->terms.damping |= material->damped;
     model->terms.paper |= material->law == VSC_LAW_PAPER;
@@ -395,7 +391,8 @@ static vsc_status build(const vsc_mesh *mesh, const vsc_mesh *shown, const vsc_a
   model->cycle = definition->cycle;
   model->cycle_tolerance = definition->cycle_tolerance;
   model->solve = complete_solve(definition);
-  model->masses = definition->masses;
+  // nothing but weight hangs on the masses of equilibria
+  model->masses = definition->solve.kind == VSC_SOLVE_EQUILIBRIUM ? VSC_MASS_LUMPED : definition->masses;
   vsc_status status = check_order(mesh, definition, error);
   if (status == VSC_OK) status = vsc_terms_materials(mesh, definition, material_of, error);
   if (status == VSC_OK) status = build_materials(definition, model, error);

@@ -20,9 +20,10 @@ static double curve_calm(const vsc_curve *curve, double time, double most)
   return most;
 }
 
-// The least and the largest delay of the material's elements, ms.
-static void find_delays(const vsc_model *model, size_t m, double delays[2])
+void vsc_model_delays(const vsc_model *model, size_t m, double delays[2])
 {
+  delays[0] = delays[1] = 0;
+  if (model->delay == NULL) return;
   delays[0] = HUGE_VAL;
   delays[1] = -HUGE_VAL;
   for (size_t p = 0; p < model->patch_count; p++) {
@@ -40,9 +41,9 @@ static void find_delays(const vsc_model *model, size_t m, double delays[2])
 static double material_calm(const vsc_model *model, size_t m, double time, double most)
 {
   const vsc_material *material = &model->materials[m];
-  double delays[2] = {0, 0};
+  double delays[2];
   if (material->active == VSC_ACTIVE_NONE) return most;
-  if (model->delay != NULL) find_delays(model, m, delays);
+  vsc_model_delays(model, m, delays);
   const double between = (delays[1] - delays[0]) / (DELAYS - 1);
   if (!(between > 0)) return curve_calm(&material->curve, time - material->delay - delays[0], most);
   for (int k = 0; k < DELAYS; k++)

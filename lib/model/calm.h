@@ -12,4 +12,8 @@
 // more within two places of its table, these two places: a jump is passed.
 double vsc_model_calm(const vsc_model *model, double time, double most);
 
+// The least and the largest of what the cell array adds to the delay of material m in its elements, ms: 0 without an
+// array, infinity and its opposite without elements.
+void vsc_model_delays(const vsc_model *model, size_t m, double delays[2]);
+
 #endif

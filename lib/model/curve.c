@@ -10,7 +10,7 @@
 #include "model/curve_driver.h"
 
 enum { INTERVALS_OF_PERIOD = 8192, DRIVEN_INTERVALS_OF_PERIOD = 65536, MOST_INTERVALS = 1 << 20 };
-enum { INTERVALS_OF_SCALE = 4096 };
+enum { INTERVALS_OF_SCALE = 4096, INTERVALS_OF_BEND = 256 };
 #define SPACING 0.015625  // ms; of a curve without period, halved for what changes within less than 64 ms
 
 // base^exponent; infinity, without overflow, where that is e^709.78 or more.
@@ -146,15 +146,37 @@ static void place_endless(const vsc_curve_def *d, double end_time, vsc_curve *cu
   curve->intervals = (size_t)fmax(ceil(last / curve->spacing), 1);
 }
 
+// The time in which a curve with a period bends the most, ms: 256 places there leave an error of 2e-5 of its range at
+// most, 1e-3 at a corner.
+static double bend_of(const vsc_curve_def *d)
+{
+  double least = HUGE_VAL;
+  if (d->kind == VSC_CURVE_RAMP || d->kind == VSC_CURVE_HALF_SINE) return d->duration / 4;
+  if (d->kind == VSC_CURVE_DOUBLE_HILL) return 4 * fmin(d->rise / d->rise_power, d->fall / d->fall_power);
+  if (d->kind == VSC_CURVE_TANH_PAIR) return 2 * fmin(d->rise, d->fall);
+  if (is_driven(d)) return d->width;
+  for (size_t k = 1; k < d->point_count; k++) least = fmin(least, d->times[k] - d->times[k - 1]);
+  return 4 * least;
+}
+
+// What is fine enough with the usual places keeps them.
+static void place_periodic(const vsc_curve_def *d, vsc_curve *curve)
+{
+  const double bend = bend_of(d);
+  // a driver bends within its width: of a beat of 1 s, 8192 places would leave an error of 4e-6
+  curve->intervals = is_driven(d) ? DRIVEN_INTERVALS_OF_PERIOD : INTERVALS_OF_PERIOD;
+  while (bend / d->period * (double)curve->intervals < INTERVALS_OF_BEND && curve->intervals < MOST_INTERVALS)
+    curve->intervals *= 2;
+  curve->spacing = d->period / (double)curve->intervals;
+}
+
 static void place_table(const vsc_curve_def *d, double end_time, vsc_curve *curve)
 {
   if (d->kind == VSC_CURVE_CONSTANT) {
     curve->intervals = 1;
     curve->spacing = 1;
   } else if (d->period > 0) {
-    // a driver bends within its width: of a beat of 1 s, 8192 places would leave an error of 4e-6
-    curve->intervals = is_driven(d) ? DRIVEN_INTERVALS_OF_PERIOD : INTERVALS_OF_PERIOD;
-    curve->spacing = d->period / (double)curve->intervals;
+    place_periodic(d, curve);
   } else {
     place_endless(d, end_time, curve);
   }

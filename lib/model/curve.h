@@ -19,8 +19,9 @@ typedef struct vsc_curve {
   uint64_t hash;   // of the definition, which does not know when the run ends, unless the spacing depends on it
 } vsc_curve;
 
-// Tabulates `definition` over its period, or over [0, end_time] when it has none; then in steps of 1/64 ms, or of 1/4096
-// of the time in which it changes if that is less: only for more than 2^20 of them in longer ones.
+// Tabulates `definition` over its period, in 8192 steps (65536 of a driver) or in 2, 4, 8... times as many where it bends
+// within less than 256 of them, up to 2^20; or over [0, end_time] when it has none, in steps of 1/64 ms, or of 1/4096 of
+// the time in which it changes if that is less: only for more than 2^20 of them in longer ones.
 // Fails with VSC_INPUT for a table that is not rising in time, VSC_NUMERICAL for a driver's equation
 // that cannot be followed (model/curve_driver.h), and for lack of memory.
 vsc_status vsc_curve_build(const vsc_curve_def *definition, double end_time, vsc_curve *curve,

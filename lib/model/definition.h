@@ -228,7 +228,7 @@ typedef struct vsc_membrane_def {
   double direction[3];     // of axis a; default 1 0 0
 } vsc_membrane_def;
 
-// How the mass goes to the nodes.
+// How the mass goes to the nodes, and with it the weight; in equilibria, where masses do nothing else, as LUMPED.
 typedef enum vsc_mass_kind {
   VSC_MASS_LUMPED,   // row sums of the consistent mass: a quarter of a tet to each corner (default)
   VSC_MASS_VORONOI,  // what of the body is nearest to the node (model/masses.h)

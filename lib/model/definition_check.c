@@ -26,12 +26,13 @@ static void check_active(vsc_checker *c, size_t item, const vsc_active_def *acti
 {
   enter(c, "materials", item, ".active");
   if (active->kind == VSC_ACTIVE_NONE) return;
-  need(c, law != VSC_LAW_CLASSICAL, "kind", active->kind, "",
-       "law: classical has no fibre that could contract; use springs or paper");
-  need(c, law != VSC_LAW_PAPER || active->kind == VSC_ACTIVE_SPRING, "kind", active->kind, "",
-       "law: paper knows active springs only; use kind: spring");
-  need(c, law == VSC_LAW_PAPER || law == VSC_LAW_SPRINGS || active->kind == VSC_ACTIVE_TENSION,
-       "kind", active->kind, "", "only springs have a spring that could be active; use kind: tension");
+  const char *kind = active->kind == VSC_ACTIVE_SPRING ? "spring" : "tension";
+  need_text(c, law != VSC_LAW_CLASSICAL, "kind", kind,
+            "law: classical has no fibre that could contract; use springs or paper");
+  need_text(c, law != VSC_LAW_PAPER || active->kind == VSC_ACTIVE_SPRING, "kind", kind,
+            "law: paper knows active springs only; use kind: spring");
+  need_text(c, law == VSC_LAW_PAPER || law == VSC_LAW_SPRINGS || active->kind == VSC_ACTIVE_TENSION, "kind", kind,
+            "only springs have a spring that could be active; use kind: tension");
   if (active->kind == VSC_ACTIVE_SPRING) {
     need_not_negative(c, "stiffness", active->stiffness, "kPa");
     need(c, active->rest_stretch > 0 && active->rest_stretch <= 1, "rest_stretch",
@@ -317,8 +318,8 @@ vsc_status vsc_definition_check(const vsc_definition *d, vsc_error *error)
   need_not_negative(&c, "time.step", d->step, "ms");
   need(&c, d->safety > 0 && d->safety <= 1, "time.safety", d->safety, "",
        "give a fraction above 0 and up to 1");
-  need(&c, d->masses != VSC_MASS_CONSISTENT || d->solve.kind == VSC_SOLVE_IMPLICIT, "masses",
-       (double)d->masses, "(consistent)", "take masses: lumped, or solve: implicit");
+  if (c.status == VSC_OK && d->masses == VSC_MASS_CONSISTENT && d->solve.kind != VSC_SOLVE_IMPLICIT)
+    c.status = vsc_fail(error, VSC_INPUT, "masses: consistent: take masses: lumped, or solve: implicit");
   need(&c, d->solve.rho >= 0 && d->solve.rho <= 1, "solver.rho", d->solve.rho, "",
        "give a number from 0 to 1");
   need(&c, d->solve.accuracy > 0 && d->solve.accuracy < 0.1, "solver.accuracy", d->solve.accuracy, "",

@@ -295,15 +295,14 @@ static void add_membranes(const vsc_model *model, double *masses)
   }
 }
 
-static vsc_status finish_masses(const vsc_mesh *mesh, const vsc_definition *definition,
-                                const double *masses, vsc_model *model, vsc_error *error)
+static vsc_status finish_masses(const vsc_mesh *mesh, const double *masses, vsc_model *model, vsc_error *error)
 {
   for (size_t n = 0; n < model->node_count; n++) {
     model->mass[n] = masses[model->mesh_node[n]];
     model->total_mass += model->mass[n];
   }
   for (size_t n = 0; n < model->node_count; n++) {
-    if (definition->masses == VSC_MASS_EQUAL)
+    if (model->masses == VSC_MASS_EQUAL)
       model->mass[n] = model->total_mass / (double)model->node_count;
     if (!(model->mass[n] > 0))
       return vsc_fail(error, VSC_INPUT,
@@ -331,12 +330,12 @@ vsc_status vsc_terms_masses(const vsc_mesh *mesh, const vsc_definition *definiti
   for (size_t n = 0; n < nodes; n++)
     memcpy(model->rest + 4 * n, mesh->nodes + 3 * (size_t)model->mesh_node[n], 3 * sizeof(double));
   status = vsc_mixture_densities(mesh, definition, material_of, density, error);
-  if (status == VSC_OK && definition->masses == VSC_MASS_VORONOI)
+  if (status == VSC_OK && model->masses == VSC_MASS_VORONOI)
     status = vsc_voronoi_masses(mesh, density, masses, error);
   else if (status == VSC_OK)
     lumped_masses(mesh, model->rules, density, masses);
   add_membranes(model, masses);
-  if (status == VSC_OK) status = finish_masses(mesh, definition, masses, model, error);
+  if (status == VSC_OK) status = finish_masses(mesh, masses, model, error);
   vsc_free(masses);
   vsc_free(density);
   return status;

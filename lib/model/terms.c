@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "model/calm.h"
 
 vsc_status vsc_terms_element_values(const vsc_mesh *mesh, const char *name, const char *key,
                                 const double **values, vsc_error *error)
@@ -103,10 +104,9 @@ static vsc_status fill_activation(const vsc_mesh *mesh, const vsc_definition *de
   return VSC_OK;
 }
 
-vsc_status vsc_terms_activation(const vsc_mesh *mesh, const vsc_definition *definition,
-                                vsc_model *model, vsc_error *error)
+static vsc_status fill_activations(const vsc_mesh *mesh, const vsc_definition *definition,
+                                   vsc_model *model, vsc_error *error)
 {
-  if (model->terms.active == VSC_ACTIVE_NONE) return VSC_OK;
   const size_t slots = VSC_WIDTH * model->pack_count;
   bool amplitudes = false, delays = false;
   for (size_t slot = 0; slot < slots; slot++)
@@ -124,6 +124,29 @@ vsc_status vsc_terms_activation(const vsc_mesh *mesh, const vsc_definition *defi
     if (status != VSC_OK) return status;
   }
   return VSC_OK;
+}
+
+// A delay below 0 lets elements be ahead of the run.
+static vsc_status build_curves(const vsc_definition *definition, vsc_model *model, vsc_error *error)
+{
+  for (size_t m = 0; m < definition->material_count; m++) {
+    const vsc_active_def *active = &definition->materials[m].active;
+    double delays[2];
+    if (active->kind == VSC_ACTIVE_NONE) continue;
+    vsc_model_delays(model, m, delays);
+    const double end = definition->end_time - fmin(active->delay + delays[0], 0);
+    const vsc_status status = vsc_curve_build(&active->curve, end, &model->materials[m].curve, error);
+    if (status != VSC_OK) return status;
+  }
+  return VSC_OK;
+}
+
+vsc_status vsc_terms_activation(const vsc_mesh *mesh, const vsc_definition *definition,
+                                vsc_model *model, vsc_error *error)
+{
+  if (model->terms.active == VSC_ACTIVE_NONE) return VSC_OK;
+  const vsc_status status = fill_activations(mesh, definition, model, error);
+  return status == VSC_OK ? build_curves(definition, model, error) : status;
 }
 
 // What solver.incompressible would pass over.

@@ -19,11 +19,12 @@ vsc_status vsc_terms_materials(const vsc_mesh *mesh, const vsc_definition *defin
                                vsc_error *error);
 
 // amplitude and delay of each slot, where a material names cell arrays or is active in elements
-// without a known fibre (amplitude 0: passive).
+// without a known fibre (amplitude 0: passive); then the curves of active materials, as far as the least delay lets the
+// run see them. VSC_INPUT and VSC_NUMERICAL as vsc_curve_build.
 vsc_status vsc_terms_activation(const vsc_mesh *mesh, const vsc_definition *definition,
                                 vsc_model *model, vsc_error *error);
 
-// Rest positions, masses of the kind that the definition asks for, and their inverses (masses.c).
+// Rest positions, masses of the model's kind, and their inverses (masses.c).
 vsc_status vsc_terms_masses(const vsc_mesh *mesh, const vsc_definition *definition,
                             const uint32_t *material_of, vsc_model *model, vsc_error *error);
 

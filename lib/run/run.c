@@ -265,7 +265,7 @@ static void grow_calm(vsc_job *job)
 // To the next look. When energy does not balance there, because loads or vibrations have changed much
 // since the last look, the same way is gone again with closer looks, then with steps of a half, a quarter,
 // an eighth of their length and looks closer still, and so it is when numbers are no longer finite; what
-// fails then is coming apart.
+// fails then is coming apart, but for what supports do that start or stop at once.
 static vsc_status go_to_look(vsc_job *job, double time, vsc_error *error)
 {
   const vsc_model *model = job->problem->model;
@@ -279,7 +279,9 @@ static vsc_status go_to_look(vsc_job *job, double time, vsc_error *error)
     job->state->limit.caution = fmax(ldexp(usual, -turn), LEAST_CAUTION);
     job->repeated = repeated + turn;
     job->calm = 0;
+    job->watch->settles = turn == turns - 1;
     status = go_closer(job, start, time, CLOSER << turn, error);
+    job->watch->settles = false;
   }
   if (status == VSC_OK) grow_calm(job);
   return status;

@@ -9,6 +9,7 @@
 #include "model/free_motions.h"
 #include "model/small_strain.h"
 #include "run/check.h"
+#include "run/idle_keys.h"
 
 // Where warnings go, and how many there were.
 typedef struct writer {
@@ -297,8 +298,18 @@ static void warn_setting(writer *w, const vsc_problem *problem)
          model->stopped_count);
   if (model->terms.active == VSC_ACTIVE_NONE && !driven && !pushed && model->velocity == NULL)
     warn(w, "nothing will move: no active material, no pressure, no gravity, no initial velocity");
-  if (!model->terms.damping && model->solve.kind != VSC_SOLVE_EQUILIBRIUM)
+  if (!model->terms.damping && model->branch_count == 0 && model->solve.kind != VSC_SOLVE_EQUILIBRIUM)
     warn(w, "materials: no damping, so vibrations never die away");
+}
+
+static void warn_idle_keys(writer *w, const vsc_scene *scene)
+{
+  static const char *const kinds[] = {
+      [VSC_SOLVE_EXPLICIT] = "explicit", [VSC_SOLVE_IMPLICIT] = "implicit", [VSC_SOLVE_EQUILIBRIUM] = "equilibrium"};
+  char keys[VSC_IDLE_KEYS];
+  const int count = vsc_idle_keys(scene, keys);
+  if (count > 0)
+    warn(w, "solve: %s: %s %s no effect", kinds[scene->definition.solve.kind], keys, count > 1 ? "have" : "has");
 }
 
 int vsc_check_warnings(const vsc_problem *problem, bool thorough, FILE *stream, const char *prefix)
@@ -313,5 +324,6 @@ int vsc_check_warnings(const vsc_problem *problem, bool thorough, FILE *stream, 
   warn_vessels(&w, problem);
   warn_prestress(&w, problem);
   warn_setting(&w, problem);
+  warn_idle_keys(&w, problem->scene);
   return w.count;
 }

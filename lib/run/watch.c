@@ -9,6 +9,7 @@
 
 #include "base/mem.h"
 #include "model/small_strain.h"
+#include "solve/moving.h"
 #include "solve/newton.h"
 
 #define MJ 1e-3  // mJ per uJ
@@ -324,30 +325,57 @@ static vsc_status check_shape(const vsc_problem *problem, const vsc_state *state
   return fail_apart(problem, state, what, error);
 }
 
-static vsc_status check_balance(const vsc_problem *problem, const vsc_state *state, vsc_watch *watch,
-                                vsc_error *error)
+// The largest energy or work so far.
+static double largest_energy(const vsc_watch *watch)
 {
-  const vsc_model *model = problem->model;
   const vsc_totals *t = &watch->totals;
   const vsc_ledger *ledger = watch->ledger;
-  const double error_now = vsc_balance_error(ledger, t), jump = fabs(error_now - watch->balance);
   const double sizes[] = {
       t->kinetic + t->axial + t->angular + t->volume_energy + t->membrane + t->bending + t->springs,
       fabs(ledger->active), fabs(ledger->pressure), ledger->dissipated, fabs(t->contact_work),
       fabs(t->support_work)};
+  double scale = watch->energy_scale;
+  for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) scale = fmax(scale, sizes[k]);
+  return scale;
+}
+
+// How far the balance has jumped since the last look, and whether that is more than may be, or it is off by more in all.
+static bool is_off(const vsc_watch *watch, double scale, double *jump)
+{
+  const double error_now = vsc_balance_error(watch->ledger, &watch->totals);
+  *jump = error_now - watch->balance;
+  return !(fabs(*jump) <= MOST_JUMP * scale && fabs(error_now) <= MOST_DRIFT * scale);
+}
+
+// Where the speed of a support has jumped since the last look, at `from`, the power of damping has jumped with it, and no
+// trapezoid tells what was dissipated: it is what the balance leaves, not below 0. `before`: dissipated at `from`.
+static void settle_jump(const vsc_model *model, double from, double before, vsc_watch *watch)
+{
+  vsc_ledger *ledger = watch->ledger;
+  double jump;
+  if (model->moved_count == 0 || !model->terms.damping || ledger->calls <= 1) return;
+  if (!is_off(watch, largest_energy(watch), &jump)) return;
+  if (vsc_moving_jumps(model, from, ledger->time)) ledger->dissipated = fmax(ledger->dissipated - jump, before);
+}
+
+static vsc_status check_balance(const vsc_problem *problem, const vsc_state *state, vsc_watch *watch,
+                                vsc_error *error)
+{
+  const vsc_model *model = problem->model;
+  const vsc_ledger *ledger = watch->ledger;
+  double jump;
+  watch->energy_scale = largest_energy(watch);
+  const bool balances = !is_off(watch, watch->energy_scale, &jump);
+  const double error_now = vsc_balance_error(ledger, &watch->totals);
   watch->balance = error_now;
-  for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++)
-    watch->energy_scale = fmax(watch->energy_scale, sizes[k]);
   // law PAPER makes energy, and a forced step is the user's own risk
   // equilibria store work along ways that the ledger does not see
   const bool may_jump = ledger->calls <= 1 || model->solve.kind != VSC_SOLVE_EXPLICIT ||
                         model->terms.paper || model->force_step;
-  const bool balances =
-      jump <= MOST_JUMP * watch->energy_scale && fabs(error_now) <= MOST_DRIFT * watch->energy_scale;
   if (isfinite(error_now) && (may_jump || balances)) return VSC_OK;
   char what[200];
-  const bool drifts = jump <= MOST_JUMP * watch->energy_scale;
-  const double off = drifts ? fabs(error_now) : jump;
+  const bool drifts = fabs(jump) <= MOST_JUMP * watch->energy_scale;
+  const double off = drifts ? fabs(error_now) : fabs(jump);
   snprintf(what, sizeof what, "the energy balance %s by %.3g mJ, %.0f %% of the largest energy so far, most in the %s energy",
            drifts ? "is off" : "jumped", MJ * off, 100 * off / watch->energy_scale,
            busiest_term(&watch->totals, &watch->former));
@@ -372,8 +400,10 @@ static vsc_status write_row(vsc_watch *watch, vsc_error *error)
 vsc_status vsc_watch_observe(const vsc_problem *problem, vsc_state *state, vsc_watch *watch,
                              vsc_error *error)
 {
+  const double from = watch->ledger->time, before = watch->ledger->dissipated;
   watch->former = watch->totals;
   vsc_observe(problem->model, state, watch->ledger, false, &watch->totals);
+  if (watch->settles) settle_jump(problem->model, from, before, watch);
   const vsc_status status = check_balance(problem, state, watch, error);
   return status == VSC_OK ? check_shape(problem, state, watch, error) : status;
 }

@@ -32,6 +32,7 @@ typedef struct vsc_watch {
   double rows;
   double balance;       // balance error of the last row, uJ
   double energy_scale;  // largest energy or work seen, uJ
+  bool settles;         // looks are as close as they get: jumps of supports are settled (vsc_watch_observe)
 } vsc_watch;
 
 // Opens `file`, in which rows up to `keep_until` (ms; below 0: none) stay (vsc_watch_trim). The caller owns *watch.
@@ -41,7 +42,8 @@ vsc_status vsc_watch_open(const vsc_problem *problem, const char *file, double k
 // Observes the state and carries the energy ledger on. VSC_NUMERICAL when the energy balance has
 // jumped by more than 5 % of the largest energy seen (at least that of 3 % strain everywhere): the
 // simulation is coming apart although all numbers are finite. Law PAPER, which makes energy, and a
-// forced step are not held to it.
+// forced step are not held to it. With watch->settles: where the speed of a support jumps in damped tissue, what was
+// dissipated since the last look is taken from the balance if the ledger's trapezoid is off by more than that.
 vsc_status vsc_watch_observe(const vsc_problem *problem, vsc_state *state, vsc_watch *watch,
                              vsc_error *error);
 

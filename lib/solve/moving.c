@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/moving.h"
 
+#include <math.h>
+
 #include "mech/force.h"
+
+#define JUMP 0.1  // of the curve's greatest speed
 
 double vsc_moving_rate(const vsc_model *model, const vsc_curve *curve, double time, double dt)
 {
@@ -10,6 +14,28 @@ double vsc_moving_rate(const vsc_model *model, const vsc_curve *curve, double ti
     return (vsc_curve_value(curve, time + dt) - before) / (2 * dt);
   return (3 * vsc_curve_value(curve, time) - 4 * before + vsc_curve_value(curve, time - 2 * dt)) /
          (2 * dt);
+}
+
+static bool curve_jumps(const vsc_curve *curve, double from, double to)
+{
+  const double spacing = curve->spacing;
+  double most = 0;
+  for (size_t k = 0; k < curve->intervals; k++) most = fmax(most, fabs(curve->values[k + 1] - curve->values[k]));
+  for (double k = floor(from / spacing) - 1; k <= ceil(to / spacing) + 1; k++) {
+    const double here = vsc_curve_value(curve, k * spacing), before = vsc_curve_value(curve, (k - 1) * spacing);
+    if (fabs(vsc_curve_value(curve, (k + 1) * spacing) - 2 * here + before) > JUMP * most) return true;
+  }
+  return false;
+}
+
+bool vsc_moving_jumps(const vsc_model *model, double from, double to)
+{
+  for (size_t s = 0; s < model->moved_count; s++) {
+    const vsc_curve *curve = &model->moved[s].curve;
+    const double known = curve->period > 0 ? to : fmin(to, model->end_time - 3 * curve->spacing);
+    if (curve_jumps(curve, from, known)) return true;
+  }
+  return false;
 }
 
 static void give_rate(const vsc_moved *moved, double rate, double *v)

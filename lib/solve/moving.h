@@ -9,6 +9,10 @@
 // of a curve that ends with the run.
 double vsc_moving_rate(const vsc_model *model, const vsc_curve *curve, double time, double dt);
 
+// Whether the speed of a moving support jumps between two times (ms): whether it changes by more than a tenth of the
+// curve's greatest within two places of the curve's table. Not where the table ends with the run.
+bool vsc_moving_jumps(const vsc_model *model, double from, double to);
+
 // To be called once the forces at the start are known and the nodes are in place: begins the sums, with
 // nodes at rest.
 void vsc_moving_start(const vsc_model *model, vsc_state *state);

@@ -192,6 +192,16 @@ static bool stands_still(const vsc_newton *newton, double norm)
          norm <= fmax(STILL_RESIDUAL * newton->scale, ROUNDED_SUMS * newton->floor);
 }
 
+// What else the scene could be solved by.
+static const char *other_ways(const vsc_model *model)
+{
+  if (model->solve.kind == VSC_SOLVE_IMPLICIT) return "or solve: explicit";
+  // relaxation has no multipliers
+  if (model->obstacle_count > 0 || model->kept.count > 0 || model->solve.incompressible > 0)
+    return "or solve: implicit or explicit";
+  return "solver.method: relaxation, or solve: implicit or explicit";
+}
+
 static vsc_status fail(const vsc_newton *newton, vsc_error *error, double time, const char *why)
 {
   const vsc_model *model = newton->model;
@@ -207,8 +217,8 @@ static vsc_status fail(const vsc_newton *newton, vsc_error *error, double time, 
              model->obstacle_count > 0 ? " but obstacles that it touches" : "", ways);
   return vsc_fail(error, VSC_NUMERICAL,
                   "at %.6g ms no equilibrium was found: %s%s; furthest out of balance, by %.2g mN, is %s; take a smaller "
-                  "load or a better mesh there, or solve: explicit", time, why, loose, sqrt(size),
-                  vsc_name_node(model, worst, node, sizeof node));
+                  "load or a better mesh there, %s", time, why, loose, sqrt(size),
+                  vsc_name_node(model, worst, node, sizeof node), other_ways(model));
 }
 
 static vsc_status solve(vsc_newton *newton, const vsc_balance *balance, double time, double load, double *x,
