@@ -10,6 +10,12 @@
 #define PRESSURE 3.0
 enum { COUNT = 4 * OCTA_NODES };
 
+// Triangles that count whole, with middles or without.
+static vsc_facets facets_of(size_t count, uint32_t *corners, uint32_t *mid)
+{
+  return (vsc_facets){.count = count, .whole = count, .corners = corners, .mid = mid};
+}
+
 // A model that is nothing but loads on an octahedron.
 typedef struct loaded {
   octahedron o;
@@ -35,9 +41,7 @@ static void open_loaded(loaded *l, double noise)
 static void push(loaded *l, int nodes)
 {
   const vsc_curve_def constant = vsc_default_curve(VSC_CURVE_CONSTANT);
-  l->pressure = (vsc_pressure){.triangle_count = OCTA_FACES,
-                               .triangles = l->o.triangles,
-                               .mid = nodes == 6 ? l->o.mid : NULL,
+  l->pressure = (vsc_pressure){.facets = facets_of(OCTA_FACES, l->o.triangles, nodes == 6 ? l->o.mid : NULL),
                                .rule = vsc_face_rule_of(nodes, VSC_FACE_FLUX),
                                .peak = PRESSURE};
   if (vsc_curve_build(&constant, 1, &l->pressure.curve, NULL) != VSC_OK) fail_msg("no memory");
@@ -48,9 +52,8 @@ static void push(loaded *l, int nodes)
 static void lay(loaded *l, int nodes, bool normal, double stiffness, double damping)
 {
   l->robin = (vsc_robin){.normal = normal, .stiffness = stiffness, .damping = damping};
-  if (vsc_robin_fill(l->rest, OCTA_FACES, l->o.triangles, nodes == 6 ? l->o.mid : NULL, &l->robin,
-                     NULL) != VSC_OK)
-    fail_msg("no memory");
+  const vsc_facets facets = facets_of(OCTA_FACES, l->o.triangles, nodes == 6 ? l->o.mid : NULL);
+  if (vsc_robin_fill(l->rest, &facets, &l->robin, NULL) != VSC_OK) fail_msg("no memory");
   l->model.robin_count = 1;
   l->model.robins = &l->robin;
 }
@@ -208,7 +211,7 @@ static void all_blocks_are_the_derivative_of_the_force(void **state)
     open_loaded(&l, 0.2);
     push(&l, nodes);
     lay(&l, nodes, normal, 5, 7);
-    l.pressure.triangle_count -= open;
+    l.pressure.facets.whole = l.pressure.facets.count -= open;
     for (int i = 0; i < COUNT; i++) l.x[i] += i % 4 < 3 ? random_between(&seed, -0.1, 0.1) : 0;
     memset(K, 0, sizeof K);
     vsc_loads_tangent(&l.model, l.x, 0, 0.5, 2, 3, sink, &K);
@@ -286,13 +289,14 @@ static void rigid_motion_meets_the_area(void **state)
 static void three_nodes_have_the_known_matrix(void **state)
 {
   (void)state;
-  const uint32_t triangle[3] = {0, 1, 2};
+  uint32_t triangle[3] = {0, 1, 2};
+  const vsc_facets facets = facets_of(1, triangle, NULL);
   double *rest, area = 6;
   vsc_robin robin = {.normal = true};
   assert_true(VSC_NEW(rest, 12));
   rest[4] = 3;
   rest[9] = 4;
-  assert_int_equal(vsc_robin_fill(rest, 1, triangle, NULL, &robin, NULL), VSC_OK);
+  assert_int_equal(vsc_robin_fill(rest, &facets, &robin, NULL), VSC_OK);
   assert_int_equal(robin.node_count, 3);
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
@@ -308,7 +312,8 @@ static void three_nodes_have_the_known_matrix(void **state)
 static void sliding_is_free(void **state)
 {
   (void)state;
-  const uint32_t triangle[3] = {0, 1, 2}, mid[3] = {3, 4, 5};
+  uint32_t triangle[3] = {0, 1, 2}, mid[3] = {3, 4, 5};
+  const vsc_facets facets = facets_of(1, triangle, mid);
   static const double corner[6][2] = {{0, 0}, {3, 0}, {0, 4}, {1.5, 0}, {1.5, 2}, {0, 2}};
   loaded l;
   open_loaded(&l, 0);
@@ -317,7 +322,7 @@ static void sliding_is_free(void **state)
     l.rest[4 * n + 2] = 1;
   }
   l.robin = (vsc_robin){.normal = true, .stiffness = 5, .damping = 7};
-  assert_int_equal(vsc_robin_fill(l.rest, 1, triangle, mid, &l.robin, NULL), VSC_OK);
+  assert_int_equal(vsc_robin_fill(l.rest, &facets, &l.robin, NULL), VSC_OK);
   l.model.robin_count = 1;
   l.model.robins = &l.robin;
   memcpy(l.x, l.rest, COUNT * sizeof *l.x);

@@ -175,10 +175,10 @@ static void any_triangles_can_be_closed(void **state)
     const double volume = vsc_cavity_volume(&cavity, x, 3);
     // Another origin of the sum: the first triangle's corners in another order, and last.
     uint32_t first[3];
-    memcpy(first, cavity.triangles, sizeof first);
-    memmove(cavity.triangles, cavity.triangles + 3,
-            3 * (cavity.triangle_count - 1) * sizeof *first);
-    memcpy(cavity.triangles + 3 * (cavity.triangle_count - 1), first, sizeof first);
+    uint32_t *corners = cavity.facets.corners, *last = corners + 3 * (cavity.facets.count - 1);
+    memcpy(first, corners, sizeof first);
+    memmove(corners, corners + 3, (size_t)((char *)last - (char *)corners));
+    memcpy(last, first, sizeof first);
     for (size_t i = 0; i < 3 * NODES; i++) shifted[i] += 100;
     assert_close(vsc_cavity_volume(&cavity, shifted, 3), volume, 1e-10, 1e-10);
     vsc_cavity_free(&cavity);
@@ -201,7 +201,7 @@ static void bad_surfaces_are_refused(void **state)
     vsc_alloc_fail_after(after);
     assert_int_equal(vsc_cavity_make(&surface, 3, &cavity, &error), VSC_SYSTEM);
     vsc_alloc_fail_after(-1);
-    assert_null(cavity.triangles);
+    assert_null(cavity.facets.corners);
   }
 }
 

@@ -50,8 +50,8 @@ void vsc_face_push_tangent(const vsc_face_rule *rule, const double x[][3],
 static void gather_face(const vsc_pressure *load, size_t face, const double *x,
                         uint32_t node[VSC_FACE_NODES], double at[][3])
 {
-  const uint32_t *mid = load->mid != NULL ? load->mid + 3 * face : NULL;
-  memcpy(node, load->triangles + 3 * face, 3 * sizeof *node);
+  const uint32_t *mid = load->facets.mid != NULL ? load->facets.mid + 3 * face : NULL;
+  memcpy(node, load->facets.corners + 3 * face, 3 * sizeof *node);
   if (mid != NULL) memcpy(node + 3, mid, 3 * sizeof *node);
   vsc_face_places(node, mid, x, 4, at);
 }
@@ -75,25 +75,30 @@ static void drag(const vsc_face_rule *rule, const double rest[][3], const double
   }
 }
 
-// The forces of a face under a load of 1 kPa, and where its nodes are.
+// The forces of a facet under a load of 1 kPa, as far as it counts, and where its nodes are.
 static void face_forces(const vsc_model *model, const vsc_pressure *load, size_t face, const double *x,
                         uint32_t node[VSC_FACE_NODES], double at[][3], double f[][3])
 {
   double rest[VSC_FACE_NODES][3];
   gather_face(load, face, x, node, at);
-  if (!is_dead(load)) {
+  if (is_dead(load)) {
+    gather_face(load, face, model->rest, node, rest);
+    drag(&load->rule, (const double(*)[3])rest, load->direction, f);
+  } else {
     vsc_face_push(&load->rule, (const double(*)[3])at, f);
-    return;
   }
-  gather_face(load, face, model->rest, node, rest);
-  drag(&load->rule, (const double(*)[3])rest, load->direction, f);
+  const double weight = vsc_facet_weight(&load->facets, face);
+  for (int i = 0; i < load->rule.nodes; i++)
+    for (int k = 0; k < 3; k++) f[i][k] *= weight;
 }
 
-// The same of faces with three nodes, which each take a third: f_i = -p/6 (x_1 - x_0) x (x_2 - x_0).
-static void add_flat_pressure(const vsc_pressure *load, double pressure, const double *x, double *force)
+// The same of facets first, ... end - 1 with three nodes, which each take a third:
+// f_i = -p/6 (x_1 - x_0) x (x_2 - x_0).
+static void add_flat_pressure(const vsc_facets *facets, size_t first, size_t end, double pressure, const double *x,
+                              double *force)
 {
-  for (size_t face = 0; face < load->triangle_count; face++) {
-    const uint32_t *node = load->triangles + 3 * face;
+  for (size_t face = first; face < end; face++) {
+    const uint32_t *node = facets->corners + 3 * face;
     double a[3], b[3], n[3];
     vsc_subtract(x + 4 * (size_t)node[1], x + 4 * (size_t)node[0], a);
     vsc_subtract(x + 4 * (size_t)node[2], x + 4 * (size_t)node[0], b);
@@ -106,11 +111,13 @@ static void add_flat_pressure(const vsc_pressure *load, double pressure, const d
 static void add_pressure(const vsc_model *model, const vsc_pressure *load, double pressure, const double *x,
                          double *force)
 {
+  const vsc_facets *facets = &load->facets;
   if (load->rule.nodes == 3 && !is_dead(load)) {
-    add_flat_pressure(load, pressure, x, force);
+    add_flat_pressure(facets, 0, facets->whole, pressure, x, force);
+    add_flat_pressure(facets, facets->whole, facets->count, 0.5 * pressure, x, force);
     return;
   }
-  for (size_t face = 0; face < load->triangle_count; face++) {
+  for (size_t face = 0; face < facets->count; face++) {
     uint32_t node[VSC_FACE_NODES];
     double at[VSC_FACE_NODES][3], f[VSC_FACE_NODES][3];
     face_forces(model, load, face, x, node, at, f);
@@ -136,12 +143,12 @@ static void sink_symmetric(double K[VSC_FACE_NODES][VSC_FACE_NODES][9], int node
 static void pressure_tangent(const vsc_pressure *load, double factor, const double *x,
                              vsc_block_sink *sink, void *context)
 {
-  for (size_t face = 0; face < load->triangle_count; face++) {
+  for (size_t face = 0; face < load->facets.count; face++) {
     uint32_t node[VSC_FACE_NODES];
     double at[VSC_FACE_NODES][3], K[VSC_FACE_NODES][VSC_FACE_NODES][9];
     gather_face(load, face, x, node, at);
     vsc_face_push_tangent(&load->rule, (const double(*)[3])at, K);
-    sink_symmetric(K, load->rule.nodes, factor, node, sink, context);
+    sink_symmetric(K, load->rule.nodes, factor * vsc_facet_weight(&load->facets, face), node, sink, context);
   }
 }
 
@@ -149,7 +156,7 @@ size_t vsc_loads_push_count(const vsc_model *model)
 {
   size_t count = 0;
   for (size_t p = 0; p < model->pressure_count; p++)
-    count += 6 * model->pressures[p].triangle_count * (size_t)model->pressures[p].rule.nodes;
+    count += 6 * model->pressures[p].facets.count * (size_t)model->pressures[p].rule.nodes;
   return count;
 }
 
@@ -159,7 +166,7 @@ double vsc_loads_pressure_work(const vsc_model *model, const double *x, double t
   for (size_t p = 0; p < model->pressure_count; p++) {
     const vsc_pressure *load = &model->pressures[p];
     const double pressure = vsc_model_pressure(model, p, time);
-    for (size_t face = 0; face < load->triangle_count; face++) {
+    for (size_t face = 0; face < load->facets.count; face++) {
       uint32_t node[VSC_FACE_NODES];
       double at[VSC_FACE_NODES][3], f[VSC_FACE_NODES][3];
       face_forces(model, load, face, x, node, at, f);

@@ -21,6 +21,7 @@ void vsc_surface_free(vsc_surface *surface)
 {
   vsc_free(surface->triangles);
   vsc_free(surface->mid);
+  vsc_free(surface->paired);
   *surface = (vsc_surface){0};
 }
 
@@ -32,6 +33,7 @@ static void add_face(vsc_surface *surface, const vsc_cell_kind *kind, const int 
   for (int i = 0; i < 3 && surface->mid != NULL; i++)
     surface->mid[3 * surface->count + (size_t)i] =
         corner[vsc_cell_middle(kind, face[i], face[(i + 1) % 3])];
+  if (count == 2) surface->paired[surface->count] = 1;
   memcpy(surface->triangles + 3 * surface->count, cut, (size_t)count * sizeof *cut);
   surface->count += (size_t)count;
 }
@@ -50,12 +52,17 @@ static vsc_status copy_triangles(const vsc_mesh *mesh, vsc_surface *boundary, vs
 // The triangles of all open faces, in the order of the elements.
 static vsc_status list_open(const vsc_mesh *mesh, const uint8_t *open, vsc_surface *boundary, vsc_error *error)
 {
-  size_t count = 0;
+  size_t count = 0, pairs = 0;
   for (size_t e = 0; e < mesh->element_count; e++)
-    for (int i = 0; open[e] >> i != 0; i++)
-      if (open[e] >> i & 1) count += vsc_mesh_kind(mesh, e)->faces[i][3] < 0 ? 1 : 2;
+    for (int i = 0; open[e] >> i != 0; i++) {
+      if (!(open[e] >> i & 1)) continue;
+      const size_t paired = vsc_mesh_kind(mesh, e)->faces[i][3] >= 0;
+      count += 1 + paired;
+      pairs += paired;
+    }
   if (!VSC_NEW(boundary->triangles, 3 * count) ||
-      (vsc_mesh_is_quadratic(mesh) && !VSC_NEW(boundary->mid, 3 * count))) {
+      (vsc_mesh_is_quadratic(mesh) && !VSC_NEW(boundary->mid, 3 * count)) ||
+      (pairs > 0 && !VSC_NEW(boundary->paired, count))) {
     vsc_surface_free(boundary);
     return vsc_fail_memory(error, "the mesh's boundary");
   }

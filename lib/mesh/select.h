@@ -48,6 +48,8 @@ typedef struct vsc_surface {
   uint32_t *triangles;  // count x 3, turned so that the normal points out of the tissue; owned
   uint32_t *mid;        // count x 3: the nodes in the middle of edges 01, 12, 20; NULL where elements
                         // are linear; owned
+  uint8_t *paired;      // count: 1 where this triangle and the next one are a quadrilateral face with corners
+                        // (a, b, c), (a, c, d); or NULL: no face is one; owned
 } vsc_surface;
 
 // Whether a selector by array takes a value of the array.
@@ -55,8 +57,8 @@ bool vsc_selector_takes(const vsc_selector *selector, const vsc_array *array, do
 
 // The boundary of the mesh: faces that belong to one element, turned outwards, in the order of
 // their elements; of a mesh without elements its triangles as they are. A quadrilateral is cut into
-// two triangles by the diagonal through its smallest node number, whichever element it belongs to.
-// `boundary` is filled and owned by the caller.
+// two triangles by the diagonal through its smallest node number, whichever element it belongs to; sums
+// over the surface take both cuts (mesh/facets.h). `boundary` is filled and owned by the caller.
 vsc_status vsc_boundary(const vsc_mesh *mesh, vsc_surface *boundary, vsc_error *error);
 
 // Finds the nodes that `selector` describes. `surfaces` (surface_count) are those that a selector

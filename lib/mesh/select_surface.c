@@ -188,15 +188,17 @@ static vsc_status mark_selected(const vsc_mesh *mesh, const vsc_surface *boundar
   return status;
 }
 
-// Copies the marked triangles of a surface.
+// Copies the marked triangles of a surface. Half a quadrilateral face without the other is a triangle.
 static vsc_status copy_marked(const vsc_surface *from, const uint8_t *marked, vsc_surface *to, vsc_error *error)
 {
   size_t count = 0;
   for (size_t t = 0; t < from->count; t++) count += marked[t];
-  if (!VSC_NEW(to->triangles, 3 * count) || (from->mid != NULL && !VSC_NEW(to->mid, 3 * count)))
+  if (!VSC_NEW(to->triangles, 3 * count) || (from->mid != NULL && !VSC_NEW(to->mid, 3 * count)) ||
+      (from->paired != NULL && !VSC_NEW(to->paired, count)))
     return vsc_fail_memory(error, "a surface");
   for (size_t t = 0; t < from->count; t++) {
     if (!marked[t]) continue;
+    if (from->paired != NULL) to->paired[to->count] = from->paired[t] && marked[t + 1];
     const size_t at = 3 * to->count++;
     memcpy(to->triangles + at, from->triangles + 3 * t, 3 * sizeof *to->triangles);
     if (from->mid != NULL) memcpy(to->mid + at, from->mid + 3 * t, 3 * sizeof *to->mid);

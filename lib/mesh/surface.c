@@ -195,7 +195,7 @@ static vsc_status find_rims(const vsc_surface *surface, vsc_cavity *cavity, vsc_
 vsc_status vsc_cavity_make(const vsc_surface *surface, size_t node_count, vsc_cavity *cavity,
                            vsc_error *error)
 {
-  *cavity = (vsc_cavity){.triangle_count = surface->count};
+  *cavity = (vsc_cavity){0};
   vsc_copy_name(cavity->name, surface->name);
   if (surface->count == 0)
     return vsc_fail(error, VSC_INPUT, "surface %s has no triangles: it encloses no volume",
@@ -209,15 +209,8 @@ vsc_status vsc_cavity_make(const vsc_surface *surface, size_t node_count, vsc_ca
                       surface->name, i / 3,
                       surface->triangles[i] >= node_count ? surface->triangles[i] : surface->mid[i],
                       node_count - 1);
-  if (!VSC_NEW(cavity->triangles, 3 * surface->count) ||
-      (surface->mid != NULL && !VSC_NEW(cavity->mid, 3 * surface->count))) {
-    vsc_cavity_free(cavity);
-    return vsc_fail_memory(error, "a cavity");
-  }
-  memcpy(cavity->triangles, surface->triangles, 3 * surface->count * sizeof *surface->triangles);
-  if (surface->mid != NULL)
-    memcpy(cavity->mid, surface->mid, 3 * surface->count * sizeof *surface->mid);
-  const vsc_status status = find_rims(surface, cavity, error);
+  vsc_status status = vsc_facets_make(surface, &cavity->facets, error);
+  if (status == VSC_OK) status = find_rims(surface, cavity, error);
   if (status != VSC_OK) vsc_cavity_free(cavity);
   return status;
 }
@@ -230,16 +223,14 @@ static void renumber(uint32_t *nodes, size_t count, const uint32_t *number)
 void vsc_cavity_renumber(vsc_cavity *cavity, const uint32_t *number)
 {
   const size_t rim = cavity->rim_start[cavity->rim_count];
-  renumber(cavity->triangles, 3 * cavity->triangle_count, number);
-  renumber(cavity->mid, 3 * cavity->triangle_count, number);
+  vsc_facets_renumber(&cavity->facets, number);
   renumber(cavity->rim_nodes, rim, number);
   renumber(cavity->rim_mid, rim, number);
 }
 
 void vsc_cavity_free(vsc_cavity *cavity)
 {
-  vsc_free(cavity->triangles);
-  vsc_free(cavity->mid);
+  vsc_facets_free(&cavity->facets);
   vsc_free(cavity->rim_start);
   vsc_free(cavity->rim_nodes);
   vsc_free(cavity->rim_mid);
@@ -296,7 +287,7 @@ static double cap_volume(const vsc_cavity *cavity, const vsc_face_rule *rule, si
   double centre[3], volume = 0;
   rim_centre(cavity, rim, positions, stride, centre);
   for (size_t k = cavity->rim_start[rim]; k < cavity->rim_start[rim + 1]; k++)
-    volume -= cavity->mid != NULL
+    volume -= cavity->rim_mid != NULL
                   ? curved_cap(cavity, rule, rim, k, origin, centre, positions, stride)
                   : vsc_tet_volume(origin, positions + stride * cavity->rim_nodes[k],
                                    positions + stride * cavity->rim_nodes[following(cavity, rim, k)],
@@ -306,18 +297,20 @@ static double cap_volume(const vsc_cavity *cavity, const vsc_face_rule *rule, si
 
 double vsc_cavity_volume(const vsc_cavity *cavity, const double *positions, size_t stride)
 {
-  const double *origin = positions + stride * cavity->triangles[0];
+  const vsc_facets *facets = &cavity->facets;
+  const double *origin = positions + stride * facets->corners[0];
   const vsc_face_rule rule = vsc_face_rule_of(6, VSC_FACE_FLUX);
   double volume = 0;
-  for (size_t t = 0; t < cavity->triangle_count; t++) {
-    const uint32_t *node = cavity->triangles + 3 * t;
-    if (cavity->mid != NULL) {
+  for (size_t k = 0; k < facets->count; k++) {
+    const uint32_t *node = facets->corners + 3 * k;
+    if (facets->mid != NULL) {
       double x[VSC_FACE_NODES][3];
-      vsc_face_places(node, cavity->mid + 3 * t, positions, stride, x);
+      vsc_face_places(node, facets->mid + 3 * k, positions, stride, x);
       volume -= curved_volume(&rule, origin, x);
       continue;
     }
-    volume -= vsc_tet_volume(origin, positions + stride * node[0], positions + stride * node[1],
+    volume -= vsc_facet_weight(facets, k) *
+              vsc_tet_volume(origin, positions + stride * node[0], positions + stride * node[1],
                              positions + stride * node[2]);
   }
   for (size_t rim = 0; rim < cavity->rim_count; rim++)
@@ -346,13 +339,22 @@ vsc_status vsc_surface_flatten(vsc_surface *surface, vsc_error *error)
   return VSC_OK;
 }
 
-static double triangle_area(const double a[3], const double b[3], const double c[3])
+static double triangle_area(const uint32_t node[3], const double *positions, size_t stride)
 {
   double ab[3], ac[3], normal[3];
-  vsc_subtract(b, a, ab);
-  vsc_subtract(c, a, ac);
+  vsc_subtract(positions + stride * node[1], positions + stride * node[0], ab);
+  vsc_subtract(positions + stride * node[2], positions + stride * node[0], ac);
   vsc_cross(ab, ac, normal);
   return vsc_norm(normal) / 2;
+}
+
+static double quadrilateral_area(const uint32_t halves[6], const double *positions, size_t stride)
+{
+  uint32_t facets[4][3];
+  double area = 0;
+  vsc_facets_of_halves(halves, facets);
+  for (int k = 0; k < 4; k++) area += 0.5 * triangle_area(facets[k], positions, stride);
+  return area;
 }
 
 static double curved_area(const vsc_face_rule *rule, double x[VSC_FACE_NODES][3])
@@ -378,8 +380,12 @@ double vsc_surface_area(const vsc_surface *surface, const double *positions, siz
       area += curved_area(&rule, x);
       continue;
     }
-    area += triangle_area(positions + stride * node[0], positions + stride * node[1],
-                          positions + stride * node[2]);
+    if (surface->paired != NULL && surface->paired[t]) {
+      area += quadrilateral_area(node, positions, stride);
+      t++;
+      continue;
+    }
+    area += triangle_area(node, positions, stride);
   }
   return area;
 }

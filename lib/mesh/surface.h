@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #include "base/status.h"
-#include "mesh/select.h"
+#include "mesh/facets.h"
 
 // A surface prepared for measuring the volume it encloses, again and again while its nodes move.
 // Where it is open, each rim is a closed loop of nodes, capped by the fan of triangles between the
@@ -15,9 +15,7 @@
 // outer sides are curved as the rim's edges are.
 typedef struct vsc_cavity {
   char name[VSC_NAME];
-  size_t triangle_count;
-  uint32_t *triangles;  // triangle_count x 3, as the surface has them; owned
-  uint32_t *mid;        // triangle_count x 3: the middles of edges 01, 12, 20, or NULL; owned
+  vsc_facets facets;    // of the surface
   size_t rim_count;     // 0: the surface is closed
   size_t *rim_start;    // rim_count + 1: rim r has the nodes rim_nodes[rim_start[r]..]; owned
   uint32_t *rim_nodes;  // in the order in which a cap continues the surface's turning; owned
@@ -41,8 +39,8 @@ void vsc_cavity_renumber(vsc_cavity *cavity, const uint32_t *number);
 void vsc_cavity_free(vsc_cavity *cavity);
 
 // The volume enclosed, mm^3: by the divergence theorem minus one sixth of the sum of a . (b x c)
-// over triangles and caps, seen from one of the nodes, so that it does not change with translation;
-// exactly so through faces of six nodes (mesh/face.h).
+// over facets and caps, seen from one of the nodes, so that it does not change with translation;
+// exactly so through faces of six nodes (mesh/face.h) and through bilinear ones (mesh/facets.h).
 // Positive where the triangles' normals, which point out of the tissue, point into the cavity, as
 // an endocardium's do; negative for a surface that encloses the tissue. Node i lies at
 // positions[stride i .. stride i + 2].
@@ -52,7 +50,8 @@ double vsc_cavity_volume(const vsc_cavity *cavity, const double *positions, size
 // middles; others stay. VSC_SYSTEM when memory is short.
 vsc_status vsc_surface_flatten(vsc_surface *surface, vsc_error *error);
 
-// The area of a surface, mm^2; positions as above. Of curved faces by the points of mesh/face.h.
+// The area of a surface, mm^2; positions as above. Of curved faces by the points of mesh/face.h,
+// of quadrilaterals the mean of both cuts.
 double vsc_surface_area(const vsc_surface *surface, const double *positions, size_t stride);
 
 #endif

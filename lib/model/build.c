@@ -208,8 +208,9 @@ static uint64_t hash_loads(const vsc_model *model, uint64_t hash)
 {
   for (size_t p = 0; p < model->pressure_count; p++) {
     const vsc_pressure *load = &model->pressures[p];
-    hash = vsc_hash(hash, load->triangles, 3 * load->triangle_count * sizeof(uint32_t));
-    if (load->mid) hash = vsc_hash(hash, load->mid, 3 * load->triangle_count * sizeof(uint32_t));
+    const vsc_facets *facets = &load->facets;
+    hash = vsc_hash(hash, facets->corners, 3 * facets->count * sizeof(uint32_t));
+    if (facets->mid) hash = vsc_hash(hash, facets->mid, 3 * facets->count * sizeof(uint32_t));
     hash = vsc_hash(hash, &load->peak, sizeof load->peak);
     hash = vsc_hash(hash, load->direction, sizeof load->direction);
     hash = vsc_hash(hash, &load->curve.hash, sizeof load->curve.hash);

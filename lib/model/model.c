@@ -41,8 +41,7 @@ static void free_lists(vsc_model *model)
   vsc_free(model->axes);
   vsc_free(model->pairs);
   for (size_t p = 0; model->pressures && p < model->pressure_count; p++) {
-    vsc_free(model->pressures[p].triangles);
-    vsc_free(model->pressures[p].mid);
+    vsc_facets_free(&model->pressures[p].facets);
     vsc_curve_free(&model->pressures[p].curve);
   }
   vsc_free(model->pressures);

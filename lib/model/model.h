@@ -12,6 +12,7 @@
 #include "base/wide.h"
 #include "mesh/axes.h"
 #include "mesh/face.h"
+#include "mesh/facets.h"
 #include "mesh/mesh.h"
 #include "mesh/select.h"
 #include "model/curve.h"
@@ -169,11 +170,8 @@ typedef struct vsc_patch {
 // A surface under pressure.
 typedef struct vsc_pressure {
   char surface[VSC_NAME];
-  size_t triangle_count;
-  uint32_t *triangles;  // triangle_count x 3 nodes, normal out of the tissue; owned
-  uint32_t *mid;        // triangle_count x 3: nodes in the middle of edges 01, 12, 20; NULL where
-                        // faces have three nodes; owned
-  vsc_face_rule rule;   // of its faces, for fluxes
+  vsc_facets facets;    // normal out of the tissue; owned
+  vsc_face_rule rule;   // of its facets, for fluxes
   double peak;          // kPa
   double direction[3];  // of a dead traction, unit; 0 0 0: pressure along the moving normal
   vsc_curve curve;      // owned
@@ -188,7 +186,6 @@ typedef struct vsc_robin {
   double stiffness;    // kPa/mm
   double damping;      // kPa ms/mm
   bool normal;
-  size_t face_count;
   double area;         // mm^2
   size_t node_count;   // rows
   uint32_t *nodes;     // node_count, ascending: the row's node; owned

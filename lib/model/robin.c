@@ -7,11 +7,10 @@
 #include "base/mem.h"
 #include "base/vec3.h"
 
-// The faces, and the sorted list of pairs of nodes (row << 32 | column) of the matrix's blocks.
+// The facets, and the sorted list of pairs of nodes (row << 32 | column) of the matrix's blocks.
 typedef struct assembly {
   const double *rest;
-  size_t face_count;
-  const uint32_t *triangles, *mid;
+  const vsc_facets *facets;
   vsc_face_rule rule;
   size_t pair_count;
   uint64_t *pairs;
@@ -19,8 +18,8 @@ typedef struct assembly {
 
 static void gather(const assembly *a, size_t face, uint32_t node[VSC_FACE_NODES], double x[][3])
 {
-  const uint32_t *mid = a->mid != NULL ? a->mid + 3 * face : NULL;
-  memcpy(node, a->triangles + 3 * face, 3 * sizeof *node);
+  const uint32_t *mid = a->facets->mid != NULL ? a->facets->mid + 3 * face : NULL;
+  memcpy(node, a->facets->corners + 3 * face, 3 * sizeof *node);
   if (mid != NULL) memcpy(node + 3, mid, 3 * sizeof *node);
   vsc_face_places(node, mid, a->rest, 4, x);
 }
@@ -39,8 +38,8 @@ static int compare_pairs(const void *a, const void *b)
 static bool list_pairs(assembly *a)
 {
   const size_t nodes = (size_t)a->rule.nodes;
-  if (!VSC_NEW(a->pairs, a->face_count * nodes * nodes)) return false;
-  for (size_t face = 0; face < a->face_count; face++) {
+  if (!VSC_NEW(a->pairs, a->facets->count * nodes * nodes)) return false;
+  for (size_t face = 0; face < a->facets->count; face++) {
     uint32_t node[VSC_FACE_NODES];
     double x[VSC_FACE_NODES][3];
     gather(a, face, node, x);
@@ -104,32 +103,30 @@ static void add_face(const assembly *a, size_t face, vsc_robin *robin)
 {
   uint32_t node[VSC_FACE_NODES];
   double x[VSC_FACE_NODES][3], normal[VSC_FACE_POINTS][3];
+  const double weight = vsc_facet_weight(a->facets, face);
   gather(a, face, node, x);
   for (int q = 0; q < a->rule.points; q++) {
     double t1[3], t2[3];
     vsc_face_tangents(&a->rule, q, (const double(*)[3])x, t1, t2, normal[q]);
-    robin->area += a->rule.weight[q] * vsc_norm(normal[q]);
+    robin->area += weight * a->rule.weight[q] * vsc_norm(normal[q]);
   }
   for (int i = 0; i < a->rule.nodes; i++)
     for (int j = i; j < a->rule.nodes; j++) {
       double W[9];
       pair_block(&a->rule, normal, robin->normal, i, j, W);
+      for (int k = 0; k < 9; k++) W[k] *= weight;
       add_block(a, node[i], node[j], W, robin);
       if (j != i) add_block(a, node[j], node[i], W, robin);
     }
 }
 
-vsc_status vsc_robin_fill(const double *rest, size_t face_count, const uint32_t *triangles,
-                          const uint32_t *mid, vsc_robin *robin, vsc_error *error)
+vsc_status vsc_robin_fill(const double *rest, const vsc_facets *facets, vsc_robin *robin, vsc_error *error)
 {
   assembly a = {.rest = rest,
-                .face_count = face_count,
-                .triangles = triangles,
-                .mid = mid,
-                .rule = vsc_face_rule_of(mid != NULL ? 6 : 3, VSC_FACE_MASS)};
-  robin->face_count = face_count;
+                .facets = facets,
+                .rule = vsc_face_rule_of(facets->mid != NULL ? 6 : 3, VSC_FACE_MASS)};
   const bool listed = list_pairs(&a) && list_rows(&a, robin);
-  for (size_t face = 0; face < face_count && listed; face++) add_face(&a, face, robin);
+  for (size_t face = 0; face < facets->count && listed; face++) add_face(&a, face, robin);
   vsc_free(a.pairs);
   return listed ? VSC_OK : vsc_fail_memory(error, "springs on a surface");
 }

@@ -162,14 +162,6 @@ vsc_status vsc_terms_supports(const vsc_definition *definition, vsc_model *model
 }
 
 // The model's numbers of `count` nodes of the mesh, owned by the caller; NULL when memory is short.
-static uint32_t *renumbered(const uint32_t *nodes, size_t count, const uint32_t *number)
-{
-  uint32_t *list;
-  if (!VSC_NEW(list, count)) return NULL;
-  for (size_t k = 0; k < count; k++) list[k] = number[nodes[k]];
-  return list;
-}
-
 static vsc_status add_pressure(const vsc_definition *definition, size_t p, const uint32_t *number,
                                vsc_model *model, vsc_error *error)
 {
@@ -179,18 +171,15 @@ static vsc_status add_pressure(const vsc_definition *definition, size_t p, const
     return vsc_fail(error, VSC_INPUT,
                     "pressures[%zu].surface: no surface is called '%s'; define it under surfaces",
                     p, def->surface);
-  const vsc_surface *triangles = &model->surfaces[surface];
   vsc_pressure *load = &model->pressures[p];
   vsc_copy_name(load->surface, def->surface);
   load->peak = def->peak;
   memcpy(load->direction, def->direction, sizeof load->direction);
   if (vsc_norm(load->direction) > 0) vsc_normalize(load->direction);
-  load->triangle_count = triangles->count;
-  load->triangles = renumbered(triangles->triangles, 3 * triangles->count, number);
-  if (triangles->mid) load->mid = renumbered(triangles->mid, 3 * triangles->count, number);
-  if (load->triangles == NULL || (triangles->mid != NULL && load->mid == NULL))
-    return vsc_fail_memory(error, "a pressure load");
-  load->rule = vsc_face_rule_of(triangles->mid ? 6 : 3, VSC_FACE_FLUX);
+  const vsc_status status = vsc_facets_make(&model->surfaces[surface], &load->facets, error);
+  if (status != VSC_OK) return status;
+  vsc_facets_renumber(&load->facets, number);
+  load->rule = vsc_face_rule_of(load->facets.mid ? 6 : 3, VSC_FACE_FLUX);
   return vsc_curve_build(&def->curve, definition->end_time, &load->curve, error);
 }
 
@@ -202,21 +191,18 @@ static vsc_status add_robin(const vsc_robin_def *def, size_t r, const uint32_t *
     return vsc_fail(error, VSC_INPUT,
                     "robin[%zu].surface: no surface is called '%s'; define it under surfaces", r,
                     def->surface);
-  const vsc_surface *faces = &model->surfaces[surface];
   vsc_robin *robin = &model->robins[r];
   vsc_copy_name(robin->surface, def->surface);
   robin->stiffness = def->stiffness;
   robin->damping = def->damping;
   robin->normal = def->normal;
   model->terms.damping |= def->damping > 0;
-  uint32_t *triangles = renumbered(faces->triangles, 3 * faces->count, number);
-  uint32_t *mid = faces->mid ? renumbered(faces->mid, 3 * faces->count, number) : NULL;
-  const bool made = triangles != NULL && (faces->mid == NULL || mid != NULL);
-  const vsc_status status =
-      made ? vsc_robin_fill(model->rest, faces->count, triangles, mid, robin, error)
-           : vsc_fail_memory(error, "springs on a surface");
-  vsc_free(triangles);
-  vsc_free(mid);
+  vsc_facets facets;
+  vsc_status status = vsc_facets_make(&model->surfaces[surface], &facets, error);
+  if (status != VSC_OK) return status;
+  vsc_facets_renumber(&facets, number);
+  status = vsc_robin_fill(model->rest, &facets, robin, error);
+  vsc_facets_free(&facets);
   return status;
 }
 

@@ -214,6 +214,11 @@ static void say_velocity(const vsc_model *model, FILE *out)
           most, momentum[0], momentum[1], momentum[2], 1e-3 * energy);
 }
 
+static size_t triangles_of(const vsc_model *model, const char *surface)
+{
+  return model->surfaces[vsc_model_find_surface(model, surface)].count;
+}
+
 static void say_terms(const vsc_model *model, FILE *out)
 {
   const char *volumes = "";
@@ -230,7 +235,7 @@ static void say_terms(const vsc_model *model, FILE *out)
     fprintf(out, "; %s on %s up to %g kPa (%zu triangles)",
             vsc_norm(model->pressures[p].direction) > 0 ? "dead traction" : "pressure", model->pressures[p].surface,
             model->pressures[p].peak * vsc_curve_peak(&model->pressures[p].curve),
-            model->pressures[p].triangle_count);
+            triangles_of(model, model->pressures[p].surface));
   fputc('\n', out);
   if (model->terms.smoothed)
     fprintf(out, "smoothed   laws of linear tets on %zu edges\n", model->smoothing.edge_count);
@@ -240,7 +245,7 @@ static void say_terms(const vsc_model *model, FILE *out)
     fprintf(out,
             "robin      %s: %zu triangles, %.4g cm2, %s; stiffness %g kPa/mm, in all %.4g mN/mm; "
             "damping %g kPa ms/mm, in all %.4g mN ms/mm\n",
-            bed->surface, bed->face_count, 1e-2 * bed->area,
+            bed->surface, triangles_of(model, bed->surface), 1e-2 * bed->area,
             bed->normal ? "along the normal" : "in all directions", bed->stiffness,
             bed->stiffness * bed->area, bed->damping, bed->damping * bed->area);
   }
