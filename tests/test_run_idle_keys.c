@@ -8,7 +8,7 @@
 // Every key with a value of its own.
 static vsc_scene busy_scene(vsc_solve_kind kind)
 {
-  vsc_scene scene = {.definition = vsc_default_definition()};
+  vsc_scene scene = {.definition = vsc_default_definition(), .prestress = vsc_default_prestress()};
   vsc_definition *d = &scene.definition;
   d->solve = (vsc_solve_def){.kind = kind, .method = VSC_STATICS_RELAXATION, .linear = VSC_LINEAR_DIRECT,
                              .scheme = VSC_SCHEME_TRAPEZOID, .rho = 0.1, .accuracy = 1e-3, .tolerance = 1e-5};
@@ -54,10 +54,23 @@ static void what_equilibria_do_not_look_at(void **state)
   assert_idle(&scene, 7, "solver.scheme, solver.rho, solver.accuracy, masses, time.step, time.force, time.safety");
 }
 
+static void keys_of_what_is_not_asked_for(void **state)
+{
+  (void)state;
+  vsc_scene scene = {.definition = vsc_default_definition(), .prestress = {.time = 5, .tolerance = 1, .iterations = 3}};
+  scene.definition.cycle_tolerance = scene.definition.most_added_mass = 0.5;
+  scene.definition.force_step = true;
+  assert_idle(&scene, 6, "prestress.time, prestress.tolerance, prestress.iterations, time.cycle_tolerance, "
+                         "time.most_added_mass, time.force");
+  scene.prestress.loaded = true;
+  scene.definition.cycle = scene.definition.mass_scaling = scene.definition.step = 1;
+  assert_idle(&scene, 0, "");
+}
+
 static void nothing_is_idle_that_is_not_given(void **state)
 {
   (void)state;
-  vsc_scene scene = {.definition = vsc_default_definition()};
+  vsc_scene scene = {.definition = vsc_default_definition(), .prestress = vsc_default_prestress()};
   for (int kind = VSC_SOLVE_EXPLICIT; kind <= VSC_SOLVE_EQUILIBRIUM; kind++) {
     scene.definition.solve.kind = (vsc_solve_kind)kind;
     assert_idle(&scene, 0, "");
@@ -70,6 +83,7 @@ int main(void)
       cmocka_unit_test(what_explicit_steps_do_not_look_at),
       cmocka_unit_test(what_implicit_steps_do_not_look_at),
       cmocka_unit_test(what_equilibria_do_not_look_at),
+      cmocka_unit_test(keys_of_what_is_not_asked_for),
       cmocka_unit_test(nothing_is_idle_that_is_not_given),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

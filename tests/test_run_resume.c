@@ -256,6 +256,11 @@ static void test_lost_rows(void **state)
   must("head -c -40 early/signals.csv > torn/signals.csv");
   assert_int_equal(shell("$V run block.yaml -q -o torn --set 'output.checkpoint=5 ms' --resume"), 0);
   must("awk -F, 'NF != n && NR > 1 {exit 1} {n = NF}' torn/signals.csv");
+  must("cp -r early headed && head -n 1 early/signals.csv > headed/signals.csv");
+  assert_int_equal(shell("$V run block.yaml -q -o headed --resume"), 2);
+  must("cp -r early holed && rm holed/frames/block_00002.vtu");
+  assert_int_equal(shell("$V run block.yaml -q -o holed --resume"), 2);
+  assert_holds(complained, "block_00002.vtu: is missing or empty");
   must("cp -r early bare && rm bare/block.pvd && ls bare/frames > before");
   assert_int_equal(shell("$V run block.yaml -q -o bare --resume"), 2);
   assert_holds(complained, "bare/block.pvd: is missing");
@@ -327,6 +332,10 @@ static void test_resumed_by_its_own_scene(void **state)
 static void test_inputs_are_spared(void **state)
 {
   (void)state;
+  must("mkdir mine && cp block.yaml mine/scene.yaml && cp block.yaml mine/other.yaml && cp block.vtu mine/");
+  assert_int_equal(shell("$V run mine/other.yaml -q -o mine"), 2);
+  assert_holds(complained, "mine/scene.yaml: is a scene that no run has left");
+  must("cmp block.yaml mine/scene.yaml");
   static const struct {
     const char *make, *run, *file;
   } cases[] = {

@@ -117,6 +117,33 @@ static void test_cycles_of_rest(void **state)
   assert_true(strtod(summary("late", "cycle_difference"), NULL) > 0.5);
 }
 
+// Equilibria and implicit steps do not go on to their next row either; what they had at the last one is kept.
+static void test_interrupted_on_the_way(void **state)
+{
+  (void)state;
+  static const char *const methods[] = {"implicit", "equilibrium", "explicit"};
+  must("$V generate lv --around 24 --along 14 -o lv.vtu && $V generate map -o map.vti");
+  for (int m = 0; m < 3; m++) {
+    char script[1024];
+    // a load so slow that its only row is far away
+    snprintf(script, sizeof script,
+             "$V run block.yaml -q -o way%d --set mesh.file=lv.vtu --set surfaces='[{name: end, node_array: endo, value: 1}, "
+             "{name: skin, boundary: true}]' --set node_sets='[{name: left, node_array: base, value: 1}]' "
+             "--set 'fibers={source: constant, constant: {fiber: [1, 0, 0]}}' --set solve=%s --set 'time.end=1000 s' "
+             "--set 'materials[0].active.curve={kind: half_sine, duration: 20 ms, period: 40 ms}' "
+             "--set 'output={frames: 1000 s, signals: %s}' &\n"
+             "until [ -s way%d/frames/block_00000.vtu ]; do sleep 0.01; done\n"
+             "kill -TERM $!\nwait $!\n[ $? = 143 ]\n",
+             m, methods[m], m == 1 ? "0.2 s" : "1000 s", m);
+    must(script);
+    char run[16];
+    snprintf(run, sizeof run, "way%d", m);
+    assert_string_equal(summary(run, "outcome"), "stopped");
+    snprintf(script, sizeof script, "ls %s/checkpoint.h5", run);
+    must(script);
+  }
+}
+
 // Told to stop, a run stops at its next look, with a checkpoint from which it goes on as if nothing had been.
 static void test_interrupted(void **state)
 {
@@ -129,7 +156,7 @@ static void test_interrupted(void **state)
       "[ $? = 143 ]\n";
   char line[256];
   must(script);
-  assert_holds(complained, "stopping at the next look");
+  assert_holds(complained, "viscera: stopping");
   assert_holds(complained, "with --resume goes on from there");
   assert_string_equal(summary("told", "outcome"), "stopped");
   const double time = strtod(summary("told", "time_s"), NULL);
@@ -148,6 +175,7 @@ int main(void)
       cmocka_unit_test(test_repeated_with_shorter_steps),
       cmocka_unit_test(test_energy_made_by_implicit_steps),
       cmocka_unit_test(test_interrupted),
+      cmocka_unit_test(test_interrupted_on_the_way),
       cmocka_unit_test(test_jerks_of_viscous_tissue),
       cmocka_unit_test(test_cycles),
       cmocka_unit_test(test_cycles_of_rest),

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "io/units.h"
@@ -22,11 +23,11 @@ static const char help[] =
     "  -s, --set KEY=VALUE  replace or add a value of the scene\n"
     "  -t, --threads N      number of threads (default: all processors)\n"
     "  -r, --resume         go on from the checkpoint in DIR\n"
-    "      --stop TIME      stop at TIME (as '0.4 s') and leave a checkpoint\n"
+    "      --stop TIME      stop at TIME (as '0.4 s') or the next look at the energy, and leave a checkpoint\n"
     "  -q, --quiet          no progress, no warnings\n"
     "  -h, --help           this text\n\n"
-    "Ctrl-C (and the signals TERM and HUP) stop at the next look at the energy and leave a checkpoint; a\n"
-    "second time they end the program at once.\n\n"
+    "Ctrl-C (and the signals TERM and HUP) leave a checkpoint of the last look at the energy (explicit steps: each\n"
+    "millisecond or 32 steps; else each row of signals); half a second later they end the program at once.\n\n"
     "Exit codes: 0 good, 2 the user's input, 3 numerical failure (the last good state is kept), 4 "
     "system,\n128 and the number of the signal that stopped it.\n\n"
     "Examples:\n"
@@ -148,22 +149,33 @@ static void report(const vsc_run_result *result)
 
 static volatile sig_atomic_t interrupted = 0;
 
+static double seconds(void)
+{
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+// Stops the run with a checkpoint; later than half a second, in which one signal may come several times, ends it at once.
 static void interrupt(int number)
 {
-  static const char told[] = "\nviscera: stopping at the next look; once more to end at once\n";
+  static const char told[] = "\nviscera: stopping; once more to end at once\n";
+  static volatile double first;
+  if (interrupted != 0 && seconds() > first + 0.5) signal(number, SIG_DFL), raise(number);
+  if (interrupted != 0) return;
+  first = seconds();
   interrupted = number;
   (void)!write(STDERR_FILENO, told, sizeof told - 1);
 }
 
-// A signal that comes once stops the run with a checkpoint, and then does again what it did before.
 static void heed_signals(vsc_run_options *options)
 {
   static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
-  const struct sigaction once = {.sa_handler = interrupt, .sa_flags = SA_RESETHAND | SA_RESTART};
+  const struct sigaction heeded = {.sa_handler = interrupt, .sa_flags = SA_RESTART};
   for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
     struct sigaction usual;
     const bool ignored = sigaction(numbers[k], NULL, &usual) == 0 && usual.sa_handler == SIG_IGN;
-    if (!ignored) sigaction(numbers[k], &once, NULL);  // not under nohup
+    if (!ignored) sigaction(numbers[k], &heeded, NULL);  // not under nohup
   }
   options->interrupted = &interrupted;
 }

@@ -18,6 +18,10 @@ int vsc_verb_schema(int argc, char **argv)
         "  viscera schema > my.yaml");
     return 0;
   }
+  if (optind < argc) {
+    fprintf(stderr, "viscera schema: '%s' means nothing here\n", argv[optind]);
+    return 2;
+  }
   vsc_scene_schema(stdout);
   return 0;
 }

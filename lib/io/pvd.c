@@ -15,7 +15,8 @@ static const double SAME_TIME = 1e-9;  // seconds
 enum { LONGEST_FILE = 64 << 20 };      // bytes of a PVD that is read
 
 typedef struct pvd_frame {
-  double time;  // seconds
+  double time;    // seconds
+  char text[32];  // the shortest decimal that reads back as the same double
   char *file;   // owned
 } pvd_frame;
 
@@ -34,6 +35,14 @@ static char *copy_text(const char *text, size_t length)
 }
 
 // Appends a frame whose file name `name` (from vsc_alloc) the list then owns, also on failure.
+static void make_text(pvd_frame *frame)
+{
+  for (int digits = 6; digits <= 17; digits++) {
+    snprintf(frame->text, sizeof frame->text, "%.*g", digits, frame->time);
+    if (strtod(frame->text, NULL) == frame->time) break;
+  }
+}
+
 static bool append(vsc_pvd *pvd, double time, char *name)
 {
   if (name != NULL && pvd->count == pvd->room) {
@@ -48,7 +57,8 @@ static bool append(vsc_pvd *pvd, double time, char *name)
     vsc_free(name);
     return false;
   }
-  pvd->frames[pvd->count++] = (pvd_frame){time, name};
+  pvd->frames[pvd->count] = (pvd_frame){.time = time, .file = name};
+  make_text(&pvd->frames[pvd->count++]);
   return true;
 }
 
@@ -229,17 +239,6 @@ vsc_status vsc_pvd_open(const char *file, double keep_until, vsc_pvd **pvd, vsc_
   return VSC_OK;
 }
 
-// The shortest decimal that reads back as the same double.
-static void write_time(FILE *stream, double time)
-{
-  char text[40];
-  for (int digits = 6; digits <= 17; digits++) {
-    snprintf(text, sizeof text, "%.*g", digits, time);
-    if (strtod(text, NULL) == time) break;
-  }
-  fputs(text, stream);
-}
-
 static void write_list(const vsc_pvd *pvd, FILE *stream)
 {
   fputs("<?xml version=\"1.0\"?>\n"
@@ -247,7 +246,7 @@ static void write_list(const vsc_pvd *pvd, FILE *stream)
         "  <Collection>\n", stream);
   for (size_t i = 0; i < pvd->count; i++) {
     fputs("    <DataSet timestep=\"", stream);
-    write_time(stream, pvd->frames[i].time);
+    fputs(pvd->frames[i].text, stream);
     fputs("\" part=\"0\" file=\"", stream);
     write_escaped(stream, pvd->frames[i].file);
     fputs("\"/>\n", stream);

@@ -38,6 +38,11 @@ static vsc_status read_whole_file(const char *file, char **text, size_t *size, v
   return status;
 }
 
+vsc_prestress_def vsc_default_prestress(void)
+{
+  return (vsc_prestress_def){.tolerance = 0.01, .iterations = 20};
+}
+
 static vsc_scene *create_scene(const char *file)
 {
   vsc_scene *scene;
@@ -45,7 +50,7 @@ static vsc_scene *create_scene(const char *file)
   snprintf(scene->file, sizeof scene->file, "%s", file);
   scene->mesh_unit = 1;
   scene->mesh_order = 1;
-  scene->prestress = (vsc_prestress_def){.tolerance = 0.01, .iterations = 20};
+  scene->prestress = vsc_default_prestress();
   scene->fibers = vsc_default_fiber();
   scene->definition = vsc_default_definition();
   scene->output.frame_interval = scene->output.signal_interval = NAN;  // not given

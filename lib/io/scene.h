@@ -47,6 +47,8 @@ typedef struct vsc_prestress_def {
   int iterations;    // at most; default 20
 } vsc_prestress_def;
 
+vsc_prestress_def vsc_default_prestress(void);
+
 typedef struct vsc_scene {
   char file[VSC_PATH];      // the scene file
   char mesh_file[VSC_PATH]; // resolved against the scene file's folder
@@ -72,6 +74,9 @@ vsc_status vsc_scene_read(const char *file, const char *const *settings, size_t 
                           vsc_scene **scene, vsc_error *error);
 
 void vsc_scene_free(vsc_scene *scene);  // NULL is fine
+
+// How a scene as understood begins.
+#define VSC_SCENE_UNDERSTOOD "# The scene as viscera understood it"
 
 // Writes the scene as understood, every default filled in, as YAML that vsc_scene_read reads back
 // to the same scene, in one step (temporary name, then renamed). File names are written absolute.

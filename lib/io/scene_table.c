@@ -153,7 +153,7 @@ static const vsc_row output_rows[] = {
     {"centre", VECTOR(vsc_output_def, centre, VSC_LENGTH), .text = "[0 mm, 0 mm, 0 mm]",
      .meaning = "helix_angle: a point that this axis goes through"},
     {"signals", QUANTITY(vsc_output_def, signal_interval, VSC_TIME), .text = "1 ms",
-     .meaning = "between rows of signals.csv; default of equilibria: as the frames"},
+     .meaning = "between rows of signals.csv; default of implicit steps and equilibria: as the frames"},
     {"cavities", .kind = VSC_ROW_NAMES, LIST_AT(vsc_output_def, cavities, cavity_count),
      .count = VSC_OUTPUT_ARRAYS, .text = "[endo]",
      .meaning = "surfaces whose (capped) volume is a signal"},

@@ -56,7 +56,7 @@ vsc_status vsc_scene_write(const vsc_scene *scene, const char *file, vsc_error *
   vsc_replacement replacement;
   const vsc_status status = vsc_replace_begin(file, &replacement, error);
   if (status != VSC_OK) return status;
-  fputs("# The scene as viscera understood it, with every default filled in.\n", replacement.stream);
+  fputs(VSC_SCENE_UNDERSTOOD ", with every default filled in.\n", replacement.stream);
   write_group(replacement.stream, &vsc_scene_group, scene, 0, "");
   return vsc_replace_end(&replacement, false, error);
 }

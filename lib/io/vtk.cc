@@ -373,12 +373,21 @@ vsc_status read_image(const char *file, double unit, vsc_image **image, vsc_erro
 
 }  // namespace
 
+// Lengths that mean something.
+static vsc_status check_unit(const char *file, double unit, vsc_error *error)
+{
+  if (unit > 0 && std::isfinite(unit)) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT, "%s: a unit of %g mm means nothing; give a length above zero", file, unit);
+}
+
 vsc_status vsc_vtk_read_mesh(const char *file, double unit, vsc_mesh **mesh, vsc_error *error)
 {
-  return guarded(file, error, [&] { return read_mesh(file, unit, mesh, error); });
+  const vsc_status status = check_unit(file, unit, error);
+  return status == VSC_OK ? guarded(file, error, [&] { return read_mesh(file, unit, mesh, error); }) : status;
 }
 
 vsc_status vsc_vtk_read_image(const char *file, double unit, vsc_image **image, vsc_error *error)
 {
-  return guarded(file, error, [&] { return read_image(file, unit, image, error); });
+  const vsc_status status = check_unit(file, unit, error);
+  return status == VSC_OK ? guarded(file, error, [&] { return read_image(file, unit, image, error); }) : status;
 }

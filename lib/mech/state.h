@@ -3,6 +3,7 @@
 #ifndef VSC_MECH_STATE_H
 #define VSC_MECH_STATE_H
 
+#include <signal.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -99,11 +100,18 @@ typedef struct vsc_state {
   double *former_x;           // node_count x 4: position before it, mm; likewise, owned
   double *former_v;           // node_count x 4: velocity before it, mm/ms; scheme BDF2, owned
   double *prony;          // vsc_prony_size: branches of Prony series (mech/prony.h); owned
+  const volatile sig_atomic_t *interrupted;  // not 0: methods give up (vsc_solve_heed); NULL: never. Not owned
   void *solver;           // memory of the method (solve/solve.c), made when it starts
   void (*release_solver)(void *solver);
   vsc_limit limit;
   vsc_scratch scratch;
 } vsc_state;
+
+// Whether *flag is not 0; NULL is a flag that never is.
+static inline bool vsc_is_set(const volatile sig_atomic_t *flag)
+{
+  return flag != NULL && *flag != 0;
+}
 
 // The state of `model` in its shape at rest at time 0, with its initial velocity, its acceleration still to be
 // computed (vsc_start).

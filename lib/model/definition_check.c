@@ -167,8 +167,10 @@ static void check_regions(vsc_checker *c, const vsc_definition *d, size_t item)
 {
   const vsc_material_def *materials = d->materials, *material = &materials[item];
   char remedy[VSC_NAME + 80];
+  const size_t room = sizeof material->regions / sizeof material->regions[0];
   enter(c, "materials", item, "");
-  for (size_t other = 0; other < item; other++) {
+  need(c, material->region_count <= room, "regions", (double)material->region_count, "32 at most", "give some another material");
+  for (size_t other = 0; other < item && material->region_count <= room; other++) {
     snprintf(remedy, sizeof remedy, "belongs to material %s already; leave it in one of the two",
              materials[other].name);
     for (size_t r = 0; r < material->region_count; r++)

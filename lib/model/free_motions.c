@@ -174,7 +174,7 @@ static void say(const double *columns, int count, char *text, size_t size)
              first ? verb[a / 3] : "", first ? " " : "", axis[a % 3]);
     told++;
   }
-  if (told != count) snprintf(text, size, "move in %d ways as one rigid thing", count);
+  if (told != count) snprintf(text, size, "move in %d way%s as one rigid thing", count, count > 1 ? "s" : "");
 }
 
 // How many motions of a part nothing resists; told in `text` where there are any.

@@ -314,9 +314,10 @@ static void say_step(const vsc_problem *problem, vsc_state *state, FILE *out)
   char what[VSC_NAME + 32];
   say_part(problem, slot, what, sizeof what, centre);
   fprintf(out,
-          "step       %.4g ms (%s); stable at rest %.4g ms with safety %g; limited most by %s at "
+          "step       %.4g ms (%s%s); stable at rest %.4g ms with safety %g; limited most by %s at "
           "(%.4g, %.4g, %.4g), whose own bound is %.4g ms\n",
-          dt, model->step > 0 ? "given" : "automatic", state->limit.step, model->safety, what,
+          dt, model->step > 0 ? "given" : "automatic",
+          model->step * model->safety > state->limit.step ? ", forced though it is not stable" : "", state->limit.step, model->safety, what,
           centre[0], centre[1], centre[2], 2 / sqrt(bound));
   const vsc_scaled_mass *scaled = &model->scaled;
   if (scaled->step > 0)

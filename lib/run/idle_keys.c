@@ -11,6 +11,7 @@ typedef struct idle_key {
 int vsc_idle_keys(const vsc_scene *scene, char keys[VSC_IDLE_KEYS])
 {
   const vsc_definition *d = &scene->definition, usual = vsc_default_definition();
+  const vsc_prestress_def usual_prestress = vsc_default_prestress();
   const vsc_solve_def *solve = &d->solve;
   const bool implicit = solve->kind == VSC_SOLVE_IMPLICIT, rests = solve->kind == VSC_SOLVE_EQUILIBRIUM;
   const bool relaxes = rests && solve->method == VSC_STATICS_RELAXATION, steps = !rests && !implicit;
@@ -24,8 +25,13 @@ int vsc_idle_keys(const vsc_scene *scene, char keys[VSC_IDLE_KEYS])
       {"solver.linear", solve->linear != usual.solve.linear, newton},
       {"solver.tolerance", solve->tolerance != usual.solve.tolerance, newton || relaxes},
       {"masses", d->masses != usual.masses, !rests},
+      {"prestress.time", scene->prestress.time != 0, scene->prestress.loaded},
+      {"prestress.tolerance", scene->prestress.tolerance != usual_prestress.tolerance, scene->prestress.loaded},
+      {"prestress.iterations", scene->prestress.iterations != usual_prestress.iterations, scene->prestress.loaded},
+      {"time.cycle_tolerance", d->cycle_tolerance != usual.cycle_tolerance, d->cycle > 0},
+      {"time.most_added_mass", d->most_added_mass != usual.most_added_mass, d->mass_scaling > 0},
       {"time.step", d->step != usual.step, !rests},
-      {"time.force", d->force_step != usual.force_step, steps},
+      {"time.force", d->force_step != usual.force_step, steps && d->step > 0},
       {"time.safety", d->safety != usual.safety, steps || relaxes},
   };
   int count = 0;

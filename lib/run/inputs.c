@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a run reads is not among what it writes.
+#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -40,10 +41,25 @@ static vsc_status spare(const vsc_job *job, const char *input, bool scene, vsc_e
                   "another folder than %s with -o", input, job->options->directory);
 }
 
+// A scene.yaml that no run has left is the user's.
+static vsc_status spare_other_scene(const vsc_job *job, vsc_error *error)
+{
+  char path[VSC_PATH], line[sizeof VSC_SCENE_UNDERSTOOD] = "";
+  vsc_job_path(job, "scene.yaml", path);
+  FILE *file = fopen(path, "r");
+  if (file == NULL) return VSC_OK;
+  const size_t length = fread(line, 1, sizeof line - 1, file);
+  fclose(file);
+  if (length == 0 || strcmp(line, VSC_SCENE_UNDERSTOOD) == 0) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT, "%s: is a scene that no run has left, and this run would replace it by its own as "
+                  "understood; choose another folder with -o", path);
+}
+
 vsc_status vsc_job_spare_inputs(const vsc_job *job, vsc_error *error)
 {
   const vsc_scene *scene = job->problem->scene;
   vsc_status status = spare(job, scene->file, true, error);
+  if (status == VSC_OK) status = spare_other_scene(job, error);
   for (size_t i = 0; i < scene->input_count && status == VSC_OK; i++)
     status = spare(job, scene->inputs[i], false, error);
   return status;

@@ -78,6 +78,20 @@ static vsc_status check_series(const vsc_job *job, const char *series, vsc_error
                   series, first);
 }
 
+// What the series keeps of an earlier run is still there.
+static vsc_status check_frames(const vsc_job *job, vsc_error *error)
+{
+  char path[VSC_PATH];
+  for (size_t k = 0; k < vsc_pvd_count(job->pvd); k++) {
+    vsc_job_path(job, vsc_pvd_frame(job->pvd, k), path);
+    struct stat facts;
+    if (stat(path, &facts) != 0 || facts.st_size == 0)
+      return vsc_fail(error, VSC_INPUT, "%s: is missing or empty, and the series has it: put it back, or begin anew without "
+                      "--resume", path);
+  }
+  return VSC_OK;
+}
+
 // The series with the frames up to the checkpoint's time, or none; the others' files are removed.
 static vsc_status open_series(vsc_job *job, vsc_error *error)
 {
@@ -90,6 +104,7 @@ static vsc_status open_series(vsc_job *job, vsc_error *error)
   // a frame at the checkpoint's own time stays
   const double keep = job->options->resume ? 1e-3 * job->state->time + 1e-6 : -1;
   status = vsc_pvd_open(series, keep, &job->pvd, error);
+  if (status == VSC_OK) status = check_frames(job, error);
   if (status == VSC_OK) status = vsc_pvd_write(job->pvd, error);
   if (status == VSC_OK && old != NULL) remove_frames(job, old, vsc_pvd_count(job->pvd));
   vsc_pvd_free(old);
@@ -332,7 +347,7 @@ static double look_of(const vsc_model *model, const vsc_state *state, double row
 
 static bool is_interrupted(const vsc_job *job)
 {
-  return job->options->interrupted != NULL && *job->options->interrupted != 0;
+  return vsc_is_set(job->options->interrupted);
 }
 
 // Goes on to the first look at or after `stop`: looks, and with them the steps, are where they
@@ -352,6 +367,10 @@ static vsc_status advance(vsc_job *job, double stop, vsc_error *error)
     next = fmin(next, next_event(state->time, output->checkpoint_interval, end));
     next = fmin(next, next_event(state->time, job->problem->model->cycle, end));
     status = go_to_look(job, next, error);
+    if (status != VSC_OK && is_interrupted(job)) {  // the method has given up on its way
+      vsc_job_go_back(job);
+      return VSC_OK;
+    }
     if (status == VSC_OK) watch_cycle(job, before);
     const bool last = repeats(job);
     if (status == VSC_OK && (last || is_event(before, state->time, output->signal_interval, end)))
@@ -434,6 +453,7 @@ vsc_status vsc_run(vsc_problem *problem, const vsc_run_options *options, vsc_run
   vsc_status status = start(&job, error);
   job.begun_seconds = vsc_wall_seconds() - job.start_wall - job.output_seconds;
   if (status == VSC_OK) {
+    vsc_solve_heed(problem->model, job.state, options->interrupted);
     job.start_steps = job.state->steps;
     job.start_time = job.state->time;
     const double end = problem->model->end_time;

@@ -15,9 +15,9 @@ typedef void vsc_progress(void *context, double time, double end, double wall_se
 typedef struct vsc_run_options {
   const char *directory;  // results go here; made when missing
   bool resume;            // go on from the directory's checkpoint
-  double stop_time;  // ms; > 0: stop there (at the next row of signals or, if sooner, whole ms),
-                     // leaving a checkpoint, as if interrupted
-  const volatile sig_atomic_t *interrupted;  // not 0: stop there too, as soon as one is reached; may be NULL
+  double stop_time;  // ms; > 0: stop at the first look at the energy that is not before it, leaving a checkpoint. Explicit
+                     // steps look each millisecond or 32 steps, other methods at each row of signals
+  const volatile sig_atomic_t *interrupted;  // not 0: stop, leaving a checkpoint of the last look; may be NULL
   vsc_progress *progress;  // may be NULL
   void *progress_context;
 } vsc_run_options;
@@ -35,7 +35,7 @@ typedef struct vsc_run_result {
   double most_inverted;       // most elements that were inside out at the same time, of all calls
   double cycles;              // that were watched so far (time.cycle)
   double cycle_difference;    // of the last from the one before (run/cycle.h)
-  bool interrupted;           // the run stopped before its time
+  bool interrupted;           // the run stopped before stop_time and its end because it was told to
   bool repeats;               // the run stopped because it was below time.cycle_tolerance
   char series[VSC_PATH];      // the PVD file
   char warning[VSC_ERROR_TEXT];  // what is suspicious of it, in one line; empty: nothing

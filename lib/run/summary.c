@@ -106,7 +106,9 @@ static void write_body(const vsc_job *job, const vsc_run_result *result, const c
   write_number(file, "time_s", 1e-3 * job->state->time, ",");
   write_number(file, "steps", job->state->steps, ",");
   write_number(file, "steps_this_run", result->steps, ",");
-  if (model->force_step) write_string(file, "forced_step", "above the stable step if need be", ",");
+  if (model->force_step && model->step > 0)
+    write_string(file, "forced_step", model->step * model->safety > job->state->limit.least ? "above the stable step"
+                 : "not above the stable step", ",");
   if (model->terms.paper)
     write_string(file, "conservative", "no: law paper keeps neither energy nor momenta", ",");
   write_steps(job, file);

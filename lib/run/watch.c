@@ -310,8 +310,8 @@ static vsc_status fail_apart(const vsc_problem *problem, const vsc_state *state,
     snprintf(where, sizeof where, "; element %u at (%.4g, %.4g, %.4g) mm has the smallest volume, %.2g of its own",
              mesh->element_source[worst], at[0], at[1], at[2], ratio);
   return vsc_fail(error, VSC_NUMERICAL,
-                  "at %.6g ms %s%s: the simulation is coming apart; take a smaller time.safety, more damping, or a "
-                  "smaller load", state->time, what, where);
+                  "at %.6g ms %s%s: the simulation is coming apart; take a smaller %s, more damping, or a smaller load",
+                  state->time, what, where, problem->model->step > 0 ? "time.step" : "time.safety");
 }
 
 // Volume ratios that no tissue has: law PAPER, whose energy need not balance, ends there.

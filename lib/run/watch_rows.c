@@ -34,7 +34,7 @@ static kept_rows copy_rows(FILE *from, FILE *to, double keep_until)
     if (!header && (!whole || count_columns(line) != kept.columns || time > keep_until + SAME_TIME)) continue;
     fputs(line, to);
     if (header) continue;
-    kept.gap = kept.count++ > 0 ? time - kept.last : INFINITY;
+    kept.gap = kept.count++ > 0 ? time - kept.last : 0;
     kept.last = time;
   }
   free(line);
@@ -53,7 +53,7 @@ vsc_status vsc_watch_trim(const char *file, double keep_until, double interval, 
   }
   const kept_rows kept = copy_rows(from, rows.stream, keep_until);
   fclose(from);
-  if (kept.count > 0 && keep_until - kept.last > fmax(kept.gap, interval) + SAME_TIME) {
+  if (kept.columns > 0 && keep_until - kept.last > fmax(kept.gap, interval) + SAME_TIME) {
     vsc_replace_cancel(&rows);
     return vsc_fail(error, VSC_INPUT,
                     "%s: its rows end at %.6g ms, but the checkpoint is of %.6g ms: those between are lost; remove it "
@@ -70,7 +70,7 @@ static vsc_status compare_columns(const vsc_watch *watch, char *header, const ch
   bool seen[VSC_SIGNALS] = {false}, same = true;
   size_t count = 0;
   char *rest;
-  for (char *column = strtok_r(header, ",\n", &rest); column != NULL; column = strtok_r(NULL, ",\n", &rest)) {
+  for (char *column = strtok_r(header, ",\r\n", &rest); column != NULL; column = strtok_r(NULL, ",\r\n", &rest)) {
     size_t k = 0;
     while (k < watch->signal_count && strcmp(watch->names[k], column) != 0) k++;
     same = same && k == count++;

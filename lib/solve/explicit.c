@@ -144,6 +144,7 @@ vsc_status vsc_steps(const vsc_model *model, vsc_state *state, double dt, double
   const double *velocity = model->terms.damping ? state->scratch.predicted : NULL;
   vsc_parallel_for(pieces, drift, &m);
   for (double k = 1; k <= count; k++) {
+    if (vsc_is_set(state->interrupted)) return vsc_fail(error, VSC_SYSTEM, "interrupted");
     state->time += dt;
     state->steps++;
     if (model->moved_count > 0) vsc_moving_place(model, state, dt);
@@ -176,13 +177,15 @@ static double busiest_time(const vsc_model *model, const vsc_state *state)
 
 vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
 {
+  if (model->solve.kind != VSC_SOLVE_EXPLICIT)
+    return vsc_fail(error, VSC_INPUT, "vsc_start: the model is not to be stepped explicitly: call vsc_solve_start");
   vsc_supports_place(model, state->time, 1, state->x);
   const double busiest = busiest_time(model, state);
   vsc_limit_refresh(model, state, busiest, vsc_limit_enough(model));
   const double active_step = state->limit.step;
   if (busiest != state->time) vsc_limit_refresh(model, state, state->time, vsc_limit_enough(model));
   const double stable = fmin(active_step, state->limit.step);
-  if (!(stable > 0))
+  if (!(stable > 0) || isinf(stable))
     return vsc_fail(error, VSC_NUMERICAL,
                     "no stable time step was found: every node is held or nothing is stiff; check "
                     "supports and moduli");
@@ -248,8 +251,9 @@ static vsc_status check_finite(const vsc_model *model, const vsc_state *state, v
   char node[VSC_NODE_TEXT];
   return vsc_fail(error, VSC_NUMERICAL,
                   "at %.6g ms (step %.0f) the position of %s, is no longer a finite number: the simulation has "
-                  "blown up; take a smaller time.safety, more damping, or a smaller load",
-                  state->time, state->steps, vsc_name_node(model, bad, node, sizeof node));
+                  "blown up; take a smaller %s, more damping, or a smaller load",
+                  state->time, state->steps, vsc_name_node(model, bad, node, sizeof node),
+                  model->step > 0 ? "time.step" : "time.safety");
 }
 
 // Steps on to `stop` or not quite as far, by what divides the way to `until` into equal steps not longer than

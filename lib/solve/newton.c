@@ -230,6 +230,7 @@ static vsc_status solve(vsc_newton *newton, const vsc_balance *balance, double t
   newton->solutions++;
   newton->indefinite = false;
   for (int k = 0; k <= VSC_MOST_NEWTON; k++) {
+    if (vsc_is_set(newton->interrupted)) return vsc_fail(error, VSC_SYSTEM, "interrupted");
     balance->residual(balance->context, x, newton->r);
     vsc_touch_push(newton->touch, x, k > 0 ? newton->before : NULL, newton->r);
     const double norm = free_norm(model, newton->r);

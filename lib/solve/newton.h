@@ -47,6 +47,7 @@ typedef struct vsc_newton {
   size_t row_count, row_room;
   vsc_newton_row *rows;   // since they were last taken; owned
   double iterations, solutions, failures;  // since the start
+  const volatile sig_atomic_t *interrupted;  // not 0: solutions are given up, with VSC_SYSTEM; NULL: never. Not owned
   bool indefinite;        // a direction of negative curvature was met in the last solution
 } vsc_newton;
 

@@ -106,6 +106,7 @@ vsc_status vsc_relax_to(const vsc_model *model, vsc_state *state, double until, 
   memset(state->v, 0, 4 * model->node_count * sizeof *state->v);
   state->limit.step = 0;
   for (double k = 0; k < MOST_STEPS; k++) {
+    if (vsc_is_set(state->interrupted)) return vsc_fail(error, VSC_SYSTEM, "interrupted");
     const double time = time_at(&loads, k, state);
     const double interval = k <= RAMP_STEPS ? REFRESH_IN_RAMP : REFRESH;
     if (fmod(k, interval) == 0) {

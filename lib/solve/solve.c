@@ -21,6 +21,8 @@ vsc_status vsc_solve_start(const vsc_model *model, vsc_state *state, vsc_error *
 
 vsc_status vsc_solve_to(const vsc_model *model, vsc_state *state, double until, vsc_error *error)
 {
+  if (model->solve.kind != VSC_SOLVE_EXPLICIT && state->solver == NULL)
+    return vsc_fail(error, VSC_INPUT, "vsc_solve_to: the method has not started: call vsc_solve_start before");
   if (relaxes(model)) return vsc_relax_to(model, state, until, error);
   if (model->solve.kind == VSC_SOLVE_EQUILIBRIUM)
     return vsc_equilibrium_to(model, state, until, error);
@@ -28,8 +30,16 @@ vsc_status vsc_solve_to(const vsc_model *model, vsc_state *state, double until, 
   return vsc_advance(model, state, until, error);
 }
 
+void vsc_solve_heed(const vsc_model *model, vsc_state *state, const volatile sig_atomic_t *interrupted)
+{
+  vsc_newton *newton = vsc_solve_newton(model, state);
+  state->interrupted = interrupted;
+  if (newton != NULL) newton->interrupted = interrupted;
+}
+
 vsc_newton *vsc_solve_newton(const vsc_model *model, vsc_state *state)
 {
+  if (state->solver == NULL) return NULL;
   if (model->solve.kind == VSC_SOLVE_IMPLICIT) return vsc_implicit_newton(state);
   return model->solve.kind == VSC_SOLVE_EQUILIBRIUM && !relaxes(model) ? state->solver : NULL;
 }

@@ -11,10 +11,14 @@
 vsc_status vsc_solve_start(const vsc_model *model, vsc_state *state, vsc_error *error);
 
 // Moves the state on to `until` (ms): vsc_advance, vsc_implicit_to, vsc_equilibrium_to, vsc_relax_to. After a failure the state is the
-// last good one of the method, or as the explicit method left it.
+// last good one of the method, or as the explicit method left it. VSC_INPUT before vsc_solve_start.
 vsc_status vsc_solve_to(const vsc_model *model, vsc_state *state, double until, vsc_error *error);
 
-// Newton's iterations since the start, or NULL where the method has none.
+// Lets methods give up with VSC_SYSTEM as soon as *interrupted is not 0, on the way to where vsc_solve_to was to go: the
+// state then is to be thrown away. For after vsc_solve_start; `interrupted` may be NULL.
+void vsc_solve_heed(const vsc_model *model, vsc_state *state, const volatile sig_atomic_t *interrupted);
+
+// Newton's iterations since the start, or NULL where the method has none or has not started.
 vsc_newton *vsc_solve_newton(const vsc_model *model, vsc_state *state);
 
 #endif
