@@ -194,6 +194,7 @@ static void arrays_keep_their_places(void **state)
   block->triangle_count = boundary.count;
   vsc_free(block->triangles);
   block->triangles = boundary.triangles;
+  vsc_free(boundary.paired);
   assert_true(
       VSC_NEW(numbers, 3 * block->node_count + 3 * block->element_count + 3 * boundary.count));
   for (size_t i = 0; i < block->element_count + boundary.count; i++) numbers[i] = (double)i + 1;
