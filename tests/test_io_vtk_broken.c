@@ -91,6 +91,21 @@ static void the_parts_as_they_should_be(void **state)
   vsc_mesh_free(mesh);
 }
 
+static void units_that_are_no_lengths(void **state)
+{
+  (void)state;
+  static const double units[] = {0, -1, NAN, INFINITY};
+  vsc_mesh *mesh;
+  vsc_image *image;
+  vsc_error error;
+  for (int k = 0; k < 4; k++) {
+    assert_int_equal(vsc_vtk_read_mesh("a.vtu", units[k], &mesh, &error), VSC_INPUT);
+    assert_non_null(strstr(error.text, "a.vtu: a unit of "));
+    assert_int_equal(vsc_vtk_read_image("a.vti", units[k], &image, &error), VSC_INPUT);
+    assert_non_null(strstr(error.text, "a.vti: a unit of "));
+  }
+}
+
 static void names_that_are_no_files(void **state)
 {
   (void)state;
@@ -455,6 +470,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_parts_as_they_should_be),
+    cmocka_unit_test(units_that_are_no_lengths),
     cmocka_unit_test(names_that_are_no_files),
     cmocka_unit_test(files_that_are_not_vtk),
     cmocka_unit_test(files_of_another_kind),

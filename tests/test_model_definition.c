@@ -169,6 +169,7 @@ SPOIL(driver_period, d->pressures[0].curve = vsc_default_curve(VSC_CURVE_BESTEL_
       d->pressures[0].curve.period = 480)
 SPOIL(start, d->pressures[0].curve.start = INFINITY)
 SPOIL(peak, d->pressures[0].peak = NAN)
+SPOIL(many_regions, d->materials[1].region_count = 33)
 SPOIL(shared_region, d->materials[1].region_count = 1; d->materials[1].regions[0] = 3)
 SPOIL(two_rests, d->materials[0].region_count = 0)
 SPOIL(range, d->surfaces[0].low = 2)
@@ -252,6 +253,7 @@ static const struct {
     {driver_period, "pressures[0].curve.period: 480 ms: ", "after its stop"},
     {start, "pressures[0].curve.start: ", "finite"},
     {peak, "pressures[0].peak: ", "finite"},
+    {many_regions, "materials[1].regions: 33 32 at most", "another material"},
     {shared_region, "materials[1].regions: 3: ", "muscle"},
     {two_rests, "materials[1].regions: ", "list regions"},
     {range, "surfaces[0].range: ", "not be above"},

@@ -271,6 +271,28 @@ static void stress_includes_what_keeps_volumes(void **state)
   }
 }
 
+// A state that a method has not started is not moved, and explicit steps do not start another method's.
+static void methods_out_of_order_are_refused(void **state)
+{
+  (void)state;
+  for (int kind = VSC_SOLVE_EXPLICIT; kind <= VSC_SOLVE_EQUILIBRIUM; kind++) {
+    small_body body;
+    vsc_error error;
+    body_open(&body, block_of(1, 1, 1, 1, 0), 50);
+    body.material.damping[0] = 1;
+    body.definition.solve.kind = (vsc_solve_kind)kind;
+    body_hold(&body, "x0", 1, 1, 1);
+    body_build(&body);
+    if (kind != VSC_SOLVE_EXPLICIT) {
+      assert_int_equal(vsc_start(body.model, body.state, &error), VSC_INPUT);
+      assert_int_equal(vsc_solve_to(body.model, body.state, 1, &error), VSC_INPUT);
+      assert_non_null(strstr(error.text, "call vsc_solve_start"));
+    }
+    assert_null(vsc_solve_newton(body.model, body.state));
+    body_close(&body);
+  }
+}
+
 static void what_newton_cannot_keep_is_refused(void **state)
 {
   (void)state;
@@ -296,6 +318,7 @@ int main(void)
       cmocka_unit_test(pressures_do_not_swing_from_step_to_step),
       cmocka_unit_test(threads_and_stops_do_not_change_the_bits),
       cmocka_unit_test(stress_includes_what_keeps_volumes),
+      cmocka_unit_test(methods_out_of_order_are_refused),
       cmocka_unit_test(what_newton_cannot_keep_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -17,7 +17,7 @@ enum { LONGEST_FILE = 64 << 20 };      // bytes of a PVD that is read
 typedef struct pvd_frame {
   double time;    // seconds
   char text[32];  // the shortest decimal that reads back as the same double
-  char *file;   // owned
+  char *file;     // owned
 } pvd_frame;
 
 struct vsc_pvd {
@@ -34,7 +34,6 @@ static char *copy_text(const char *text, size_t length)
   return copy;
 }
 
-// Appends a frame whose file name `name` (from vsc_alloc) the list then owns, also on failure.
 static void make_text(pvd_frame *frame)
 {
   for (int digits = 6; digits <= 17; digits++) {
@@ -43,6 +42,7 @@ static void make_text(pvd_frame *frame)
   }
 }
 
+// Appends a frame whose file name `name` (from vsc_alloc) the list then owns, also on failure.
 static bool append(vsc_pvd *pvd, double time, char *name)
 {
   if (name != NULL && pvd->count == pvd->room) {

@@ -376,7 +376,7 @@ vsc_status read_image(const char *file, double unit, vsc_image **image, vsc_erro
 // Lengths that mean something.
 static vsc_status check_unit(const char *file, double unit, vsc_error *error)
 {
-  if (unit > 0 && std::isfinite(unit)) return VSC_OK;
+  if (std::isfinite(unit) && unit > 0) return VSC_OK;
   return vsc_fail(error, VSC_INPUT, "%s: a unit of %g mm means nothing; give a length above zero", file, unit);
 }
 

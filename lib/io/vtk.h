@@ -18,7 +18,7 @@
 // VTK draws them, the first triangle turning counter-clockwise seen from outside; others are turned.
 // Every numeric point array comes as node data, every numeric cell array as element data and as
 // triangle data, `single` where it is Float32. VSC_INPUT with the file's name for a missing, truncated, empty or foreign file,
-// arrays of the wrong length and all that vsc_mesh_clean refuses. The caller owns *mesh.
+// arrays of the wrong length, a unit that is not above zero and all that vsc_mesh_clean refuses. The caller owns *mesh.
 vsc_status vsc_vtk_read_mesh(const char *file, double unit, vsc_mesh **mesh, vsc_error *error);
 
 // Reads an image (.vti, or legacy .vtk structured points), origin, spacing and direction honoured,

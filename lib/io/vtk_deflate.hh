@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// For the C++ files of this folder: what VTK compresses by zlib, in the same format, by libdeflate, in less than half the time.
+// For the C++ files of this folder: what VTK compresses by zlib, in the same format, by libdeflate, in less than half
+// the time.
 #ifndef VSC_IO_VTK_DEFLATE_HH
 #define VSC_IO_VTK_DEFLATE_HH
+
+#include <new>
 
 #include <libdeflate.h>
 

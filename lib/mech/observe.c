@@ -88,8 +88,8 @@ VSC_INLINE void add_active(const observation *o, vsc_wide tension, vsc_wide way,
   *last = tension;
 }
 
-// What one pack of frames shows: volume ratios, stretches.
-VSC_INLINE void add_frames(vsc_wide V, const vsc_wide3 g[3], vsc_wide_mask taken, vsc_wide_mask known, lanes *sum)
+// What one pack of frames shows: volume ratios, which it returns, and stretches.
+VSC_INLINE vsc_wide add_frames(vsc_wide V, const vsc_wide3 g[3], vsc_wide_mask taken, vsc_wide_mask known, lanes *sum)
 {
   const vsc_wide J = vsc_pack_ratio(g), stretch = vsc_wide_sqrt(vsc_wide_dot(g[0], g[0]));
   sum->volume += vsc_where(taken, V * J);
@@ -99,6 +99,7 @@ VSC_INLINE void add_frames(vsc_wide V, const vsc_wide3 g[3], vsc_wide_mask taken
   sum->stretch_high = larger(known, stretch, sum->stretch_high);
   sum->stretch_mean += vsc_where(known, V * stretch);
   sum->known_volume += vsc_where(known, V);
+  return J;
 }
 
 // What the frames of one pack of cells show: volume ratios, stretches, active tension.
@@ -118,8 +119,7 @@ VSC_INLINE void observe_frames(const observation *o, const vsc_patch *patch, siz
   }
   for (size_t q = 0; q < points; q++) {
     const vsc_wide V = vsc_pack_frames(model, patch, k)[q].V;
-    add_frames(V, axes[q], taken, known, sum);
-    inverted |= taken & (vsc_pack_ratio(axes[q]) <= 0);
+    inverted |= taken & (add_frames(V, axes[q], taken, known, sum) <= 0);
     if (!active) continue;
     vsc_wide way;
     const vsc_wide tension = vsc_active_tension(material, law, activation, axes[q], &way);

@@ -3,6 +3,7 @@
 
 #include <gsl/gsl_eigen.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/parallel.h"
@@ -133,16 +134,17 @@ static vsc_wide shared_pressure(const vsc_patch_work *work, const vsc_model *mod
                                                        vsc_select(full, rest, vsc_splat(1)));
 }
 
+static int compare_numbers(const void *a, const void *b)
+{
+  const uint32_t first = *(const uint32_t *)a, second = *(const uint32_t *)b;
+  return (first > second) - (first < second);
+}
+
 // The multiplier that keeps the volume of number `source`; 0 where that cannot change.
 static double kept_at(const vsc_kept_volumes *kept, const double *pressure, uint32_t source)
 {
-  size_t low = 0, high = kept->count;
-  while (low < high) {
-    const size_t middle = (low + high) / 2;
-    if (kept->source[middle] < source) low = middle + 1;
-    else high = middle;
-  }
-  return low < kept->count && kept->source[low] == source ? pressure[low] : 0;
+  const uint32_t *found = bsearch(&source, kept->source, kept->count, sizeof source, compare_numbers);
+  return found != NULL ? pressure[found - kept->source] : 0;
 }
 
 // What multipliers of kept volumes add to the mean stress: they push outwards where they are positive. Those of single
