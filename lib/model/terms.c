@@ -182,6 +182,7 @@ vsc_status vsc_terms_volume_groups(vsc_model *model, vsc_error *error)
           const double modulus = patch->mixed
                                      ? vsc_pack_mixture(model, patch, k)->volume_modulus[l]
                                      : model->materials[patch->material].volume_modulus;
+          if (share == 0) continue;  // a lane without an element
           model->group_volume[node] += share;
           model->group_modulus[node] += modulus > 0 ? share / modulus : INFINITY;
         }
