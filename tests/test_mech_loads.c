@@ -22,7 +22,7 @@ typedef struct loaded {
   vsc_pressure pressure;
   vsc_robin robin;
   vsc_model model;
-  double *x, *v, *rest, *force;  // aligned
+  double *x, *v, *rest, *pull, *force;  // aligned
 } loaded;
 
 static void open_loaded(loaded *l, double noise)
@@ -30,7 +30,7 @@ static void open_loaded(loaded *l, double noise)
   memset(l, 0, sizeof *l);
   octahedron_make(&l->o, noise, 7);
   if (!VSC_NEW(l->x, COUNT) || !VSC_NEW(l->v, COUNT) || !VSC_NEW(l->rest, COUNT) ||
-      !VSC_NEW(l->force, COUNT))
+      !VSC_NEW(l->pull, COUNT) || !VSC_NEW(l->force, COUNT))
     fail_msg("no memory");
   memcpy(l->x, l->o.x, COUNT * sizeof *l->x);
   memcpy(l->rest, l->o.x, COUNT * sizeof *l->rest);
@@ -62,7 +62,7 @@ static void forces(loaded *l)
 {
   memset(l->force, 0, COUNT * sizeof *l->force);
   vsc_loads_push(&l->model, l->x, 0, 1, l->force);
-  vsc_loads_hold(&l->model, l->x, l->v, l->force);
+  vsc_loads_hold(&l->model, l->x, l->v, l->pull, l->force);
 }
 
 static void close_loaded(loaded *l)
@@ -72,6 +72,7 @@ static void close_loaded(loaded *l)
   vsc_free(l->x);
   vsc_free(l->v);
   vsc_free(l->rest);
+  vsc_free(l->pull);
   vsc_free(l->force);
 }
 
@@ -187,7 +188,7 @@ static void difference(loaded *l, double load, double a, double b, dense *D)
       l->v[j] += b * way;
       memset(l->force, 0, COUNT * sizeof *l->force);
       vsc_loads_push(&l->model, l->x, 0, load, l->force);
-      vsc_loads_hold(&l->model, l->x, l->v, l->force);
+      vsc_loads_hold(&l->model, l->x, l->v, l->pull, l->force);
       memcpy(f[side], l->force, sizeof f[side]);
       l->x[j] -= a * way;
       l->v[j] -= b * way;

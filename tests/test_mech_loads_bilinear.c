@@ -16,7 +16,7 @@ typedef struct loaded {
   vsc_robin robin;
   vsc_model model;
   size_t count;  // 4 x nodes
-  double *x, *v, *rest, *force;
+  double *x, *v, *rest, *pull, *force;
 } loaded;
 
 static void open_loaded(loaded *l, kinds_mesh kind, double noise)
@@ -29,6 +29,7 @@ static void open_loaded(loaded *l, kinds_mesh kind, double noise)
   l->x = numbers(l->count);
   l->v = numbers(l->count);
   l->rest = numbers(l->count);
+  l->pull = numbers(l->count);
   l->force = numbers(l->count);
   for (size_t i = 0; i < l->count; i++)
     if (i % 4 < 3) l->x[i] = l->rest[i] = l->mesh->nodes[3 * (i / 4) + i % 4] += random_between(&seed, -noise, noise);
@@ -55,7 +56,7 @@ static void forces(loaded *l)
 {
   memset(l->force, 0, l->count * sizeof *l->force);
   vsc_loads_push(&l->model, l->x, 0, 1, l->force);
-  vsc_loads_hold(&l->model, l->x, l->v, l->force);
+  vsc_loads_hold(&l->model, l->x, l->v, l->pull, l->force);
 }
 
 static void close_loaded(loaded *l)
@@ -68,6 +69,7 @@ static void close_loaded(loaded *l)
   vsc_free(l->x);
   vsc_free(l->v);
   vsc_free(l->rest);
+  vsc_free(l->pull);
   vsc_free(l->force);
 }
 

@@ -278,7 +278,7 @@ void vsc_force_parts(const vsc_model *model, const double *x, const double *w, d
   if (terms->nodal_volume) sum_volumes(&e);
   if (terms->smoothed) vsc_smoothed_stress(model, x, w, time, scratch);
   vsc_parallel_for(model->patch_count + (scratch->outside != NULL), load_or_patch, &e);
-  vsc_loads_hold(model, x, w, scratch->outside);
+  vsc_loads_hold(model, x, w, scratch->pull, scratch->outside);
 }
 
 void vsc_force(const vsc_model *model, const double *x, const double *w, double time,

@@ -188,39 +188,57 @@ double vsc_loads_pressure_work(const vsc_model *model, const double *x, double t
 typedef struct bed_work {
   const vsc_robin *bed;
   const vsc_wide *x, *rest, *w;
+  vsc_wide *pull;  // one for each row
   vsc_wide *force;
 } bed_work;
 
-// f_i -= sum_j W_ij (stiffness (x_j - X_j) + damping w_j)
-static void push_rows(void *context, size_t piece, int thread)
+static size_t piece_end(const bed_work *b, size_t piece)
+{
+  const size_t end = (piece + 1) * NODES_PER_PIECE;
+  return end < b->bed->node_count ? end : b->bed->node_count;
+}
+
+// t_j = stiffness (x_j - X_j) + damping w_j
+VSC_CLONED static void pull_rows(void *context, size_t piece, int thread)
+{
+  (void)thread;
+  const bed_work *b = context;
+  for (size_t row = piece * NODES_PER_PIECE, end = piece_end(b, piece); row < end; row++) {
+    const uint32_t j = b->bed->nodes[row];
+    b->pull[row] = b->bed->stiffness * (b->x[j] - b->rest[j]);
+    if (b->w != NULL) b->pull[row] += b->bed->damping * b->w[j];
+  }
+}
+
+// f_i -= sum_j W_ij t_j
+VSC_CLONED static void push_rows(void *context, size_t piece, int thread)
 {
   (void)thread;
   const bed_work *b = context;
   const vsc_robin *bed = b->bed;
-  size_t end = (piece + 1) * NODES_PER_PIECE;
-  if (end > bed->node_count) end = bed->node_count;
-  for (size_t row = piece * NODES_PER_PIECE; row < end; row++) {
+  const vsc_wide *blocks = (const vsc_wide *)bed->blocks;
+  for (size_t row = piece * NODES_PER_PIECE, end = piece_end(b, piece); row < end; row++) {
     vsc_wide sum = vsc_splat(0);
     for (uint32_t k = bed->start[row]; k < bed->start[row + 1]; k++) {
-      const vsc_wide *W = (const vsc_wide *)bed->blocks + 3 * (size_t)k;
-      const uint32_t j = bed->columns[k];
-      vsc_wide pull = bed->stiffness * (b->x[j] - b->rest[j]);
-      if (b->w != NULL) pull += bed->damping * b->w[j];
+      const vsc_wide *W = blocks + 3 * (size_t)k, pull = b->pull[bed->columns[k]];
       sum += W[0] * pull[0] + W[1] * pull[1] + W[2] * pull[2];
     }
     b->force[bed->nodes[row]] -= sum;
   }
 }
 
-static void add_bed(const vsc_model *model, const vsc_robin *bed, const double *x, const double *w,
+static void add_bed(const vsc_model *model, const vsc_robin *bed, const double *x, const double *w, double *pull,
                     double *force)
 {
   bed_work work = {.bed = bed,
                    .x = (const vsc_wide *)x,
                    .rest = (const vsc_wide *)model->rest,
                    .w = (const vsc_wide *)w,
+                   .pull = (vsc_wide *)pull,
                    .force = (vsc_wide *)force};
-  vsc_parallel_for((bed->node_count + NODES_PER_PIECE - 1) / NODES_PER_PIECE, push_rows, &work);
+  const size_t pieces = (bed->node_count + NODES_PER_PIECE - 1) / NODES_PER_PIECE;
+  vsc_parallel_for(pieces, pull_rows, &work);
+  vsc_parallel_for(pieces, push_rows, &work);
 }
 
 static void bed_tangent(const vsc_robin *bed, double factor, vsc_block_sink *sink, void *context)
@@ -231,7 +249,7 @@ static void bed_tangent(const vsc_robin *bed, double factor, vsc_block_sink *sin
       for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++)
           block[3 * r + c] = factor * bed->blocks[12 * (size_t)k + 4 * (size_t)c + (size_t)r];
-      sink(context, bed->nodes[row], bed->columns[k], block);
+      sink(context, bed->nodes[row], bed->nodes[bed->columns[k]], block);
     }
 }
 
@@ -243,7 +261,7 @@ static double bed_square(const vsc_robin *bed, const double *d, const double *or
     const size_t i = 4 * (size_t)bed->nodes[row];
     for (uint32_t k = bed->start[row]; k < bed->start[row + 1]; k++) {
       const double *W = bed->blocks + 12 * (size_t)k;
-      const size_t j = 4 * (size_t)bed->columns[k];
+      const size_t j = 4 * (size_t)bed->nodes[bed->columns[k]];
       for (size_t c = 0; c < 3; c++)
         for (size_t r = 0; r < 3; r++)
           square += (d[i + r] - (origin ? origin[i + r] : 0)) * W[4 * c + r] *
@@ -280,10 +298,10 @@ void vsc_loads_push(const vsc_model *model, const double *x, double time, double
   }
 }
 
-void vsc_loads_hold(const vsc_model *model, const double *x, const double *w, double *force)
+void vsc_loads_hold(const vsc_model *model, const double *x, const double *w, double *pull, double *force)
 {
   for (size_t r = 0; r < model->robin_count; r++)
-    add_bed(model, &model->robins[r], x, model->robins[r].damping > 0 ? w : NULL, force);
+    add_bed(model, &model->robins[r], x, model->robins[r].damping > 0 ? w : NULL, pull, force);
 }
 
 void vsc_loads_tangent(const vsc_model *model, const double *x, double time, double load,

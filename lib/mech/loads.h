@@ -15,8 +15,9 @@ typedef void vsc_block_sink(void *context, uint32_t i, uint32_t j, const double 
 void vsc_loads_push(const vsc_model *model, const double *x, double time, double load, double *force);
 
 // Adds to `force` what springs and dashpots on surfaces do at positions x and velocities w (node_count x 4; w may be
-// NULL when nothing is damped). Sums run in an order that does not depend on the number of threads.
-void vsc_loads_hold(const vsc_model *model, const double *x, const double *w, double *force);
+// NULL when nothing is damped). Sums run in an order that does not depend on the number of threads. `pull` is room for
+// 4 numbers of each row of the largest surface.
+void vsc_loads_hold(const vsc_model *model, const double *x, const double *w, double *pull, double *force);
 
 // stiffness_factor d(-f)/dx + damping_factor d(-f)/dv of pressures, springs and dashpots at positions x
 // (node_count x 4) and `time` (ms), with the part `load` of the pressures, handed to `sink` in blocks of two nodes of one face; both orders i, j

@@ -63,9 +63,18 @@ static bool allocate(const vsc_model *model, vsc_state *state)
          VSC_NEW(state->prony, vsc_prony_size(model));
 }
 
+static size_t most_rows(const vsc_model *model)
+{
+  size_t most = 0;
+  for (size_t r = 0; r < model->robin_count; r++)
+    if (model->robins[r].node_count > most) most = model->robins[r].node_count;
+  return most;
+}
+
 static bool allocate_outside(const vsc_model *model, vsc_scratch *scratch)
 {
-  return model->pressure_count + model->robin_count == 0 || VSC_NEW(scratch->outside, 4 * model->node_count);
+  return (model->pressure_count + model->robin_count == 0 || VSC_NEW(scratch->outside, 4 * model->node_count)) &&
+         (model->robin_count == 0 || VSC_NEW(scratch->pull, 4 * most_rows(model)));
 }
 
 static bool allocate_multipliers(const vsc_model *model, vsc_scratch *scratch)
@@ -118,6 +127,7 @@ void vsc_state_free(vsc_state *state)
   vsc_free(state->scratch.local);
   vsc_free(state->scratch.partial);
   vsc_free(state->scratch.outside);
+  vsc_free(state->scratch.pull);
   vsc_free(state->scratch.volume);
   vsc_free(state->scratch.partial_volume);
   vsc_free(state->scratch.gradient);

@@ -33,6 +33,8 @@ typedef struct vsc_scratch {
   int threads;
   double *partial;         // partial_count x 4: parts of the forces on shared nodes, mN
   double *outside;         // node_count x 4: forces of loads on surfaces, mN; NULL where there are none
+  double *pull;            // 4 for each row of the largest of model.robins: what springs and dashpots there
+                           // pull with, kPa; NULL likewise
   double *volume;          // node_count: deformed volume of the nodes' groups (own nodes), mm^3
   double *partial_volume;  // partial_count: parts of the same for shared nodes
   bool still_known;        // whether these have what patches that are still give to them

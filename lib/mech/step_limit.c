@@ -200,7 +200,7 @@ static void add_surface_stiffness(const vsc_robin *bed, double rate, double *sti
   for (size_t row = 0; row < bed->node_count; row++)
     for (uint32_t k = bed->start[row]; k < bed->start[row + 1]; k++) {
       const double *W = bed->blocks + 12 * (size_t)k;
-      if (bed->columns[k] == bed->nodes[row])
+      if (bed->columns[k] == row)
         stiffness[bed->nodes[row]] += (bed->stiffness + rate * bed->damping) * (W[0] + W[5] + W[10]) / (bed->normal ? 1 : 3);
     }
 }

@@ -141,7 +141,7 @@ static void add_robin(body *body, const vsc_robin *robin)
     for (uint32_t k = robin->start[row]; k < robin->start[row + 1]; k++) {
       double u[MOTIONS][3], v[MOTIONS][3], *G = body->parts[body->part_of[robin->nodes[row]]].G;
       motions_of(body, robin->nodes[row], u);
-      motions_of(body, robin->columns[k], v);
+      motions_of(body, robin->nodes[robin->columns[k]], v);
       const double *S = robin->blocks + 12 * k;
       for (int a = 0; a < MOTIONS; a++)
         for (int b = 0; b < MOTIONS; b++)

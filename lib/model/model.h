@@ -190,7 +190,7 @@ typedef struct vsc_robin {
   size_t node_count;   // rows
   uint32_t *nodes;     // node_count, ascending: the row's node; owned
   uint32_t *start;     // node_count + 1: where a row starts; owned
-  uint32_t *columns;   // start[node_count] nodes; owned
+  uint32_t *columns;   // start[node_count] rows of other nodes (and the own one); owned
   double *blocks;      // start[node_count] x 12, mm^2: three columns of four, the fourth 0; owned
 } vsc_robin;
 

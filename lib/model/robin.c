@@ -35,6 +35,12 @@ static int compare_pairs(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
+static int compare_nodes(const void *a, const void *b)
+{
+  const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+  return (x > y) - (x < y);
+}
+
 static bool list_pairs(assembly *a)
 {
   const size_t nodes = (size_t)a->rule.nodes;
@@ -67,9 +73,13 @@ static bool list_rows(const assembly *a, vsc_robin *robin)
       robin->start[robin->node_count] = (uint32_t)k;
       robin->nodes[robin->node_count++] = (uint32_t)(a->pairs[k] >> 32);
     }
-    robin->columns[k] = (uint32_t)a->pairs[k];
   }
   robin->start[rows] = (uint32_t)a->pair_count;
+  for (size_t k = 0; k < a->pair_count; k++) {
+    const uint32_t column = (uint32_t)a->pairs[k];
+    const uint32_t *row = bsearch(&column, robin->nodes, rows, sizeof column, compare_nodes);
+    robin->columns[k] = (uint32_t)(row - robin->nodes);
+  }
   return true;
 }
 

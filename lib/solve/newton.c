@@ -135,7 +135,7 @@ void vsc_newton_scale_by_loads(vsc_newton *newton, const double *x, double time)
   for (size_t i = 0; model->terms.gravity && i < 4 * model->node_count; i++) force[i] += model->weight[i];
   newton->scale = fmax(newton->scale, whole_norm(model, force));
   memset(force, 0, 4 * model->node_count * sizeof *force);
-  vsc_loads_hold(model, x, NULL, force);
+  vsc_loads_hold(model, x, NULL, newton->d, force);
   newton->scale = fmax(newton->scale, whole_norm(model, force));
 }
 
