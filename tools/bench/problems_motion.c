@@ -126,7 +126,7 @@ static const vsc_bench_quantity snaps[] = {
 const vsc_bench_problem vsc_bench_arostica_0b = {
     .name = "arostica_0b", .title = "Arostica 2025, case 0B: a ventricle is filled and snaps through",
     .scene = "arostica_0b.yaml", .mesh = "monoventricle_5mm.vtu",
-    .variants = VSC_COUNTED(implicit_only), .sizes = VSC_COUNTED(walls),
+    .variants = VSC_COUNTED(implicit_only), .sizes = VSC_COUNTED(shown_walls),
     .quantities = VSC_COUNTED(snaps),
 };
 const vsc_bench_problem vsc_bench_arostica_0b_explicit = {
