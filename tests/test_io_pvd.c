@@ -40,7 +40,7 @@ static void the_file_is_what_paraview_reads(void **state)
   assert_int_not_equal(access(scratch("plain.pvd.tmp"), F_OK), 0);
 }
 
-static void it_is_complete_after_every_frame(void **state)
+static void a_short_list_is_complete_after_every_frame(void **state)
 {
   (void)state;
   vsc_pvd *pvd, *seen;
@@ -51,6 +51,36 @@ static void it_is_complete_after_every_frame(void **state)
     assert_int_equal(vsc_pvd_count(seen), i + 1);
     vsc_pvd_free(seen);
   }
+  vsc_pvd_free(pvd);
+}
+
+static size_t frames_on_disk(const char *name)
+{
+  vsc_pvd *seen;
+  assert_int_equal(vsc_pvd_open(scratch(name), 1e9, &seen, NULL), VSC_OK);
+  const size_t count = vsc_pvd_count(seen);
+  vsc_pvd_free(seen);
+  return count;
+}
+
+// What is written in all must not grow as the square of the frames.
+static void a_long_list_is_written_seldom(void **state)
+{
+  (void)state;
+  enum { FRAMES = 2000 };
+  vsc_pvd *pvd;
+  int times = 0;
+  assert_int_equal(vsc_pvd_open(scratch("long.pvd"), -1, &pvd, NULL), VSC_OK);
+  for (size_t i = 0, before = 0; i < FRAMES; i++) {
+    add(pvd, (double)i, "f.vtu");
+    const size_t have = frames_on_disk("long.pvd");
+    assert_in_range(have, i + 1 - i / 64, i + 1);
+    times += have != before;
+    before = have;
+  }
+  assert_in_range(times, 64, 64 + 64 * 4);  // 64 ln(2000 / 64) = 220 and the first 64
+  assert_int_equal(vsc_pvd_finish(pvd, NULL), VSC_OK);
+  assert_int_equal(frames_on_disk("long.pvd"), FRAMES);
   vsc_pvd_free(pvd);
 }
 
@@ -210,7 +240,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_file_is_what_paraview_reads),
-    cmocka_unit_test(it_is_complete_after_every_frame),
+    cmocka_unit_test(a_short_list_is_complete_after_every_frame),
+    cmocka_unit_test(a_long_list_is_written_seldom),
     cmocka_unit_test(resuming_trims),
     cmocka_unit_test(times_and_names_come_back_exactly),
     cmocka_unit_test(other_programs_files_are_read),

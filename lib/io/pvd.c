@@ -13,17 +13,21 @@
 
 static const double SAME_TIME = 1e-9;  // seconds
 enum { LONGEST_FILE = 64 << 20 };      // bytes of a PVD that is read
+enum { UNWRITTEN_PART = 64 };          // of the frames that may lack in the file: else a long list is written too often
 
 typedef struct pvd_frame {
-  double time;    // seconds
-  char text[32];  // the shortest decimal that reads back as the same double
-  char *file;     // owned
+  double time;  // seconds
+  char *file;   // owned
 } pvd_frame;
 
 struct vsc_pvd {
   char *file;
   size_t count, room;
+  size_t written;  // frames that the file has
   pvd_frame *frames;
+  FILE *lines;  // the frames' lines as they stand in the file, in memory:
+  char *text;   // text_size bytes, since the last fflush(lines)
+  size_t text_size;
 };
 
 static char *copy_text(const char *text, size_t length)
@@ -32,66 +36,6 @@ static char *copy_text(const char *text, size_t length)
   if (!VSC_NEW(copy, length + 1)) return NULL;
   memcpy(copy, text, length);
   return copy;
-}
-
-static void make_text(pvd_frame *frame)
-{
-  for (int digits = 6; digits <= 17; digits++) {
-    snprintf(frame->text, sizeof frame->text, "%.*g", digits, frame->time);
-    if (strtod(frame->text, NULL) == frame->time) break;
-  }
-}
-
-// Appends a frame whose file name `name` (from vsc_alloc) the list then owns, also on failure.
-static bool append(vsc_pvd *pvd, double time, char *name)
-{
-  if (name != NULL && pvd->count == pvd->room) {
-    void *frames = pvd->frames;
-    const size_t longer = 2 * pvd->room + 16;
-    if (vsc_grow(&frames, pvd->count, longer, sizeof *pvd->frames)) {
-      pvd->frames = frames;
-      pvd->room = longer;
-    }
-  }
-  if (name == NULL || pvd->count == pvd->room) {
-    vsc_free(name);
-    return false;
-  }
-  pvd->frames[pvd->count] = (pvd_frame){.time = time, .file = name};
-  make_text(&pvd->frames[pvd->count++]);
-  return true;
-}
-
-void vsc_pvd_frame_path(const char *file, const vsc_pvd *pvd, size_t frame, char *path,
-                        size_t size)
-{
-  const char *name = vsc_pvd_frame(pvd, frame), *slash = strrchr(file, '/');
-  const int folder = slash == NULL || name[0] == '/' ? 0 : (int)(slash - file) + 1;
-  snprintf(path, size, "%.*s%s", folder, file, name);
-}
-
-void vsc_pvd_free(vsc_pvd *pvd)
-{
-  if (pvd == NULL) return;
-  for (size_t i = 0; i < pvd->count; i++) vsc_free(pvd->frames[i].file);
-  vsc_free(pvd->frames);
-  vsc_free(pvd->file);
-  vsc_free(pvd);
-}
-
-size_t vsc_pvd_count(const vsc_pvd *pvd)
-{
-  return pvd->count;
-}
-
-double vsc_pvd_time(const vsc_pvd *pvd, size_t frame)
-{
-  return pvd->frames[frame].time;
-}
-
-const char *vsc_pvd_frame(const vsc_pvd *pvd, size_t frame)
-{
-  return pvd->frames[frame].file;
 }
 
 // The five characters that XML cannot hold as they are.
@@ -110,6 +54,73 @@ static void write_escaped(FILE *stream, const char *text)
     if (e < ESCAPE_COUNT) fputs(ESCAPES[e].escaped, stream);
     else fputc(*text, stream);
   }
+}
+
+// With the shortest decimal of the time that reads back as the same double. False when memory is short.
+static bool add_line(vsc_pvd *pvd, const pvd_frame *frame)
+{
+  char time[32];
+  for (int digits = 6; digits <= 17; digits++) {
+    snprintf(time, sizeof time, "%.*g", digits, frame->time);
+    if (strtod(time, NULL) == frame->time) break;
+  }
+  fprintf(pvd->lines, "    <DataSet timestep=\"%s\" part=\"0\" file=\"", time);
+  write_escaped(pvd->lines, frame->file);
+  fputs("\"/>\n", pvd->lines);
+  return fflush(pvd->lines) == 0;
+}
+
+// Appends a frame whose file name `name` (from vsc_alloc) the list then owns, also on failure.
+static bool append(vsc_pvd *pvd, double time, char *name)
+{
+  if (name != NULL && pvd->count == pvd->room) {
+    void *frames = pvd->frames;
+    const size_t longer = 2 * pvd->room + 16;
+    if (vsc_grow(&frames, pvd->count, longer, sizeof *pvd->frames)) {
+      pvd->frames = frames;
+      pvd->room = longer;
+    }
+  }
+  if (name == NULL || pvd->count == pvd->room) {
+    vsc_free(name);
+    return false;
+  }
+  pvd->frames[pvd->count] = (pvd_frame){.time = time, .file = name};
+  return add_line(pvd, &pvd->frames[pvd->count++]);
+}
+
+void vsc_pvd_frame_path(const char *file, const vsc_pvd *pvd, size_t frame, char *path,
+                        size_t size)
+{
+  const char *name = vsc_pvd_frame(pvd, frame), *slash = strrchr(file, '/');
+  const int folder = slash == NULL || name[0] == '/' ? 0 : (int)(slash - file) + 1;
+  snprintf(path, size, "%.*s%s", folder, file, name);
+}
+
+void vsc_pvd_free(vsc_pvd *pvd)
+{
+  if (pvd == NULL) return;
+  for (size_t i = 0; i < pvd->count; i++) vsc_free(pvd->frames[i].file);
+  vsc_free(pvd->frames);
+  if (pvd->lines != NULL) fclose(pvd->lines);
+  free(pvd->text);  // open_memstream's
+  vsc_free(pvd->file);
+  vsc_free(pvd);
+}
+
+size_t vsc_pvd_count(const vsc_pvd *pvd)
+{
+  return pvd->count;
+}
+
+double vsc_pvd_time(const vsc_pvd *pvd, size_t frame)
+{
+  return pvd->frames[frame].time;
+}
+
+const char *vsc_pvd_frame(const vsc_pvd *pvd, size_t frame)
+{
+  return pvd->frames[frame].file;
 }
 
 static void unescape(char *text)
@@ -225,7 +236,8 @@ static vsc_status read_existing(vsc_pvd *pvd, double keep_until, vsc_error *erro
 vsc_status vsc_pvd_open(const char *file, double keep_until, vsc_pvd **pvd, vsc_error *error)
 {
   vsc_pvd *made;
-  if (!VSC_NEW(made, 1) || (made->file = copy_text(file, strlen(file))) == NULL) {
+  if (!VSC_NEW(made, 1) || (made->file = copy_text(file, strlen(file))) == NULL ||
+      (made->lines = open_memstream(&made->text, &made->text_size)) == NULL) {
     vsc_pvd_free(made);
     return vsc_fail_memory(error, "the list of frames");
   }
@@ -244,23 +256,24 @@ static void write_list(const vsc_pvd *pvd, FILE *stream)
   fputs("<?xml version=\"1.0\"?>\n"
         "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
         "  <Collection>\n", stream);
-  for (size_t i = 0; i < pvd->count; i++) {
-    fputs("    <DataSet timestep=\"", stream);
-    fputs(pvd->frames[i].text, stream);
-    fputs("\" part=\"0\" file=\"", stream);
-    write_escaped(stream, pvd->frames[i].file);
-    fputs("\"/>\n", stream);
-  }
+  fwrite(pvd->text, 1, pvd->text_size, stream);
   fputs("  </Collection>\n</VTKFile>\n", stream);
 }
 
-vsc_status vsc_pvd_write(const vsc_pvd *pvd, vsc_error *error)
+vsc_status vsc_pvd_write(vsc_pvd *pvd, vsc_error *error)
 {
   vsc_replacement list;
-  const vsc_status status = vsc_replace_begin(pvd->file, &list, error);
+  vsc_status status = vsc_replace_begin(pvd->file, &list, error);
   if (status != VSC_OK) return status;
   write_list(pvd, list.stream);
-  return vsc_replace_end(&list, false, error);
+  status = vsc_replace_end(&list, false, error);
+  if (status == VSC_OK) pvd->written = pvd->count;
+  return status;
+}
+
+vsc_status vsc_pvd_finish(vsc_pvd *pvd, vsc_error *error)
+{
+  return pvd->written == pvd->count ? VSC_OK : vsc_pvd_write(pvd, error);
 }
 
 vsc_status vsc_pvd_add(vsc_pvd *pvd, double time, const char *frame, vsc_error *error)
@@ -272,5 +285,5 @@ vsc_status vsc_pvd_add(vsc_pvd *pvd, double time, const char *frame, vsc_error *
                     pvd->file, time, frame);
   if (!append(pvd, time, copy_text(frame, strlen(frame))))
     return vsc_fail_memory(error, "the list of frames");
-  return vsc_pvd_write(pvd, error);
+  return pvd->count - pvd->written > pvd->written / UNWRITTEN_PART ? vsc_pvd_write(pvd, error) : VSC_OK;
 }

@@ -16,12 +16,14 @@ typedef struct vsc_pvd vsc_pvd;
 vsc_status vsc_pvd_open(const char *file, double keep_until, vsc_pvd **pvd, vsc_error *error);
 
 // Appends a frame (time in seconds, file name relative to the PVD) and rewrites the list under a
-// temporary name, renamed: the file on disk is complete and valid at every moment. Times must rise;
+// temporary name, renamed: the file on disk is valid at every moment. It may lack the last 1/64 of the frames until
+// vsc_pvd_finish: what is written in all grows as the list does, not as its square. Times must rise;
 // VSC_INPUT for one that does not, VSC_SYSTEM when the file cannot be written.
 vsc_status vsc_pvd_add(vsc_pvd *pvd, double time, const char *frame, vsc_error *error);
 
-// Rewrites the list as it is, in the same way.
-vsc_status vsc_pvd_write(const vsc_pvd *pvd, vsc_error *error);
+// Rewrites the list as it is, in the same way; the second one if frames lack in the file.
+vsc_status vsc_pvd_write(vsc_pvd *pvd, vsc_error *error);
+vsc_status vsc_pvd_finish(vsc_pvd *pvd, vsc_error *error);
 
 size_t vsc_pvd_count(const vsc_pvd *pvd);                    // frames
 double vsc_pvd_time(const vsc_pvd *pvd, size_t frame);       // seconds

@@ -124,6 +124,7 @@ vsc_status vsc_frame_writer_finish(vsc_frame_writer *writer, vsc_error *error)
 {
   pthread_mutex_lock(&writer->lock);
   while (writer->waiting != NULL || writer->writing) pthread_cond_wait(&writer->change, &writer->lock);
+  if (writer->status == VSC_OK) writer->status = vsc_pvd_finish(writer->pvd, &writer->error);
   const vsc_status status = tell(writer, error);
   pthread_mutex_unlock(&writer->lock);
   return status;
@@ -145,6 +146,7 @@ void vsc_frame_writer_free(vsc_frame_writer *writer)
   pthread_cond_broadcast(&writer->change);
   pthread_mutex_unlock(&writer->lock);
   if (writer->beside) pthread_join(writer->thread, NULL);
+  vsc_pvd_finish(writer->pvd, NULL);
   pthread_cond_destroy(&writer->change);
   pthread_mutex_destroy(&writer->lock);
   vsc_free(writer);
