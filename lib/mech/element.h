@@ -7,6 +7,12 @@
 #include "model/law_active.h"
 #include "model/law_springs.h"
 
+// Whether elements of a patch resist velocity: where only surfaces do, no element pays for it.
+static inline bool vsc_patch_is_damped(const vsc_model *model, const vsc_patch *patch)
+{
+  return patch->mixed ? model->terms.damping : model->materials[patch->material].damped;
+}
+
 // Corner positions (or velocities) of four parts, from node x 4 numbers in the model's order (aligned as vsc_alloc does).
 VSC_INLINE void vsc_pack_corners(const vsc_model *model, const vsc_patch *patch,
                                  const uint16_t (*node)[VSC_WIDTH], int corners,

@@ -87,14 +87,14 @@ VSC_INLINE vsc_wide viscous_power(vsc_wide viscosity, const vsc_wide3 g[3], cons
 
 // Four frames of any law of strain, which stand for the volumes V.
 VSC_INLINE void add_law(const vsc_model *model, const vsc_material *material, const vsc_pack_law *law,
-                        vsc_wide V, const vsc_wide3 g[3], const vsc_wide3 rate[3],
+                        bool damped, vsc_wide V, const vsc_wide3 g[3], const vsc_wide3 rate[3],
                         vsc_pack_energies *sum)
 {
   if (material->law == VSC_LAW_SPRINGS)
     add_springs(model, material, law, V, g, rate, sum);
   else
     add_tissue(material, V, g, sum);
-  if (model->terms.damping) sum->dissipation += V * viscous_power(law->viscosity, g, rate);
+  if (damped) sum->dissipation += V * viscous_power(law->viscosity, g, rate);
 }
 
 vsc_pack_energies vsc_edge_energies_of(const vsc_model *model, const vsc_edge_work *work, size_t k)
@@ -104,7 +104,7 @@ vsc_pack_energies vsc_edge_energies_of(const vsc_model *model, const vsc_edge_wo
   vsc_wide3 g[3], rate[3] = {0};
   vsc_edge_axes(work, k, work->gradient, g);
   if (work->rate != NULL) vsc_edge_axes(work, k, work->rate, rate);
-  add_law(model, work->material, &law, work->frames[k].V, g, rate, &sum);
+  add_law(model, work->material, &law, work->rate != NULL, work->frames[k].V, g, rate, &sum);
   return sum;
 }
 
@@ -114,14 +114,15 @@ VSC_CLONED static vsc_pack_energies cells(const vsc_model *model, const vsc_patc
   const vsc_material *material = &model->materials[patch->material];
   const vsc_frame *frames = vsc_pack_frames(model, patch, k);
   const int points = vsc_family_frames(model, patch->family);
+  const bool damped = vsc_patch_is_damped(model, patch);
   vsc_pack_energies sum = {0};
   vsc_wide rest = vsc_splat(0), now = vsc_splat(0);
   for (int q = 0; q < points; q++) {
     const vsc_wide V = frames[q].V;
     vsc_wide3 rate[3] = {0};
-    if (model->terms.damping) vsc_pack_axes(model, patch, k, q, v, rate);
+    if (damped) vsc_pack_axes(model, patch, k, q, v, rate);
     const vsc_wide J = vsc_pack_ratio(axes[q]);
-    if (!patch->smoothed) add_law(model, material, law, V, axes[q], rate, &sum);
+    if (!patch->smoothed) add_law(model, material, law, damped, V, axes[q], rate, &sum);
     sum.volume +=
         V * vsc_volume_energies(patch->family == VSC_TETS ? law->element_modulus : law->stabilization, J);
     rest += V;

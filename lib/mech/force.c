@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "mech/element.h"
 #include "mech/kernel.h"
 #include "mech/loads.h"
 #include "mech/patch_nodes.h"
@@ -153,7 +154,7 @@ static vsc_patch_work prepare(const evaluation *e, const vsc_patch *patch, const
   *choice = (vsc_kernel_choice){
       .family = patch->family,
       .law = material->law,
-      .damping = e->w != NULL && (patch->mixed ? model->terms.damping : material->damped),
+      .damping = e->w != NULL && vsc_patch_is_damped(model, patch),
       .active = passive ? VSC_ACTIVE_NONE : material->active,
       .nodal_volume = vsc_patch_shares_volume(model, patch),
       .smoothed = patch->smoothed != 0,
