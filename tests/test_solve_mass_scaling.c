@@ -30,7 +30,7 @@ static void slivers_do_not_set_the_step(void **state)
   vsc_error error;
   open_slivers(&body);
   body_build(&body);
-  const double before = stable_step(&body), wanted = 4 * before, mass = body.model->total_mass;
+  const double before = stable_step(&body), wanted = 3 * before, mass = body.model->total_mass;
   double weight = 0, light = 0, now = 0, heavy = 0;
   for (size_t n = 0; n < body.model->node_count; n++) {
     weight += body.model->weight[4 * n + 2];

@@ -12,7 +12,7 @@
 
 // What the estimate of the stable step remembers (step_limit.h).
 typedef struct vsc_limit {
-  double eigenvalue;  // largest of M^-1 (K + 2/dt C), 1/ms^2; 0: not estimated yet
+  double eigenvalue;  // largest of M^-1 (K + 2/dt C) at dt = 2 / sqrt(1.1 eigenvalue), 1/ms^2; 0: not estimated yet
   double step;        // the step that is allowed now: safety . 2 / sqrt(1.1 eigenvalue), ms
   double time;        // when it was estimated, ms
   double interval;    // how long the estimate is trusted, ms

@@ -229,12 +229,11 @@ static bool improve(search *s, bool first)
 }
 
 // The step of the eigenvalue, which with damping depends on it: with what is known of that
-//   lambda = |A x| + slope (2/step - rate),  ALLOWANCE lambda step^2 = 4 safety^2.
+//   lambda = |A x| + slope (2/step - rate),  ALLOWANCE lambda step^2 = 4.
 static double step_of(const search *s)
 {
-  const double rest = fmax(sqrt(s->square) - s->slope * s->rate, 0), way = 2 * s->model->safety;
-  const double c = ALLOWANCE * s->slope;
-  return way * way / (c + sqrt(c * c + ALLOWANCE * rest * way * way));
+  const double rest = fmax(sqrt(s->square) - s->slope * s->rate, 0), c = ALLOWANCE * s->slope;
+  return 4 / (c + sqrt(c * c + 4 * ALLOWANCE * rest));
 }
 
 // C x by a difference of forces, and its products.
@@ -325,7 +324,7 @@ static search open_search(const vsc_model *model, vsc_state *state, double time)
                   .place = (vsc_wide *)trial,
                   .speed = (vsc_wide *)(trial + 2 * count),
                   .moved = (vsc_wide *)(trial + count),
-                  .rate = state->limit.step > 0 ? 2 / state->limit.step : 0};
+                  .rate = state->limit.step > 0 ? 2 * model->safety / state->limit.step : 0};
 }
 
 void vsc_limit_refresh(const vsc_model *model, vsc_state *state, double time, int iterations)
@@ -345,8 +344,9 @@ void vsc_limit_refresh(const vsc_model *model, vsc_state *state, double time, in
     limit->eigenvalue = sqrt(s.square);
     if (!(s.square > 0)) continue;
     if (model->terms.damping) follow_step(&s, i);
-    limit->step = step_of(&s);
-    limit->eigenvalue = 4 * model->safety * model->safety / (ALLOWANCE * limit->step * limit->step);
+    const double stable = step_of(&s);
+    limit->step = model->safety * stable;
+    limit->eigenvalue = 4 / (ALLOWANCE * stable * stable);
   }
   if (s.square > 0) pass(&s, keep_image);
   limit->refreshes++;

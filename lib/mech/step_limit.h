@@ -7,7 +7,7 @@
 
 // Re-estimates the largest eigenvalue lambda of M^-1 (K + 2/dt C), K and C the tangent stiffness and
 // damping at the state's positions and the given time, and sets
-//   limit.step = safety . 2 / sqrt(1.1 lambda).
+//   limit.step = safety . 2 / sqrt(1.1 lambda),  with C as it counts at 2 / sqrt(1.1 lambda).
 // Velocity Verlet with a damping force of the velocity v + dt/4 (a + a') (solve/explicit.h) is stable for
 // dt^2 k + 2 dt c <= 4, that is for dt = 2 / sqrt(lambda): of a mode of stiffness k and damping c the steps multiply
 // by the roots z of

@@ -184,25 +184,26 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
   vsc_limit_refresh(model, state, busiest, vsc_limit_enough(model));
   const double active_step = state->limit.step;
   if (busiest != state->time) vsc_limit_refresh(model, state, state->time, vsc_limit_enough(model));
-  const double stable = fmin(active_step, state->limit.step);
-  if (!(stable > 0) || isinf(stable))
+  const double allowed = fmin(active_step, state->limit.step);
+  if (!(allowed > 0) || isinf(allowed))
     return vsc_fail(error, VSC_NUMERICAL,
                     "no stable time step was found: every node is held or nothing is stiff; check "
                     "supports and moduli");
-  if (model->step > stable && !model->force_step)
+  if (model->step > allowed / model->safety && !model->force_step)
     return vsc_fail(error, VSC_INPUT,
                     "time.step: %.6g ms is above the stable step of %.6g ms (at rest %.6g, at full "
                     "activation %.6g); "
                     "use `step: auto`, a smaller step, or `force: true` to see what happens",
-                    model->step, stable, state->limit.step, active_step);
+                    model->step, allowed / model->safety, state->limit.step / model->safety,
+                    active_step / model->safety);
   // what bodies are set in motion with must not change the volumes that they keep
   if (model->kept.count > 0 && model->velocity != NULL) {
-    const vsc_status status = vsc_keep_volume_settle(model, state, stable, error);
+    const vsc_status status = vsc_keep_volume_settle(model, state, allowed, error);
     if (status != VSC_OK) return status;
   }
   state->limit.time = state->time;
   state->limit.interval = SHORTEST_TRUST;
-  state->limit.first = state->limit.least = stable;
+  state->limit.first = state->limit.least = allowed;
   vsc_force(model, state->x, model->terms.damping ? state->v : NULL, state->time, &state->scratch,
             state->force);
   motion m = {.model = model, .state = state, .whole = true};
@@ -240,7 +241,7 @@ static vsc_status refresh_limit(const vsc_model *model, vsc_state *state, vsc_er
                     "at %.6g ms the tissue has become too stiff for time.step %.6g ms: the stable "
                     "step is now %.6g ms; "
                     "use `step: auto` or a smaller step",
-                    state->time, model->step, limit->step);
+                    state->time, model->step, limit->step / model->safety);
   return VSC_OK;
 }
 

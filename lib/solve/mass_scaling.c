@@ -68,7 +68,7 @@ vsc_status vsc_scale_masses(vsc_model *model, const vsc_definition *definition, 
     vsc_free(stiffness);
     return vsc_fail_memory(error, "mass scaling");
   }
-  vsc_limit_stiffness(model, 2 / wanted, stiffness);
+  vsc_limit_stiffness(model, 2 * model->safety / wanted, stiffness);
   memcpy(before, model->mass, model->node_count * sizeof *before);
   vsc_status status = stable_step(model, &step, error);
   // step = safety 2/sqrt(1.1 lambda)

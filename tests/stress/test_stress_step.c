@@ -163,8 +163,8 @@ static double growth(stress_body *body, double dt, double count)
 }
 
 // The estimate is below the true limit by what safety (0.8) and the allowance of the estimate (1/sqrt 1.1) say:
-// 0.76 of it (0.78 where it has not quite converged), or where damping rules, whose part 2/dt C is taken at that
-// shorter step, down to 0.8^2/1.1. Just below the limit a thousand steps stay bounded, a tenth above it a few
+// 0.76 of it (0.78 where it has not quite converged), a little less where damping rules (1/1.1 of it is the
+// allowance there: 0.73). Just below the limit a thousand steps stay bounded, a tenth above it a few
 // hundred do not. Chance does not make it worse.
 static void check_step(int law, stress_kind kind, bool damped, bool slivers)
 {
@@ -172,7 +172,7 @@ static void check_step(int law, stress_kind kind, bool damped, bool slivers)
   open_body(&body, law, kind, damped, slivers);
   const double limit = true_limit(&body), claimed = body.state->limit.step;
   if (!(claimed <= 0.8 * limit)) fail_msg("law %d, kind %d: %g claimed of %g ms", law, kind, claimed, limit);
-  if (!(claimed > (damped ? 0.55 : 0.74) * limit)) fail_msg("law %d, kind %d: only %g of %g ms", law, kind, claimed, limit);
+  if (!(claimed > (damped ? 0.69 : 0.74) * limit)) fail_msg("law %d, kind %d: only %g of %g ms", law, kind, claimed, limit);
   const double longest = longest_claim(&body, 20);
   if (!(longest <= 0.8 * limit)) fail_msg("law %d, kind %d: by chance %g claimed of %g ms", law, kind, longest, limit);
   // a thousand steps: what grows by a hundredth in each would be 2e4 times as large
