@@ -79,9 +79,9 @@ static const char heart[] = "--around 32 --along 20";
 static const way in_real_time[] = {
     {.name = "masses as they are, safety 0.3", .generate = "", .settings = {"time.mass_scaling=0 ms", "time.safety=0.3"}, .reference = true},
     {.name = "masses as they are", .generate = "", .settings = {"time.mass_scaling=0 ms"}},
-    {.name = "masses scaled for 0.15 ms", .series = "masses scaled", .generate = "", .settings = {"time.mass_scaling=0.15 ms"}},
     {.name = "masses scaled for 0.18 ms", .series = "masses scaled", .generate = "", .settings = {"time.mass_scaling=0.18 ms"}},
-    {.name = "masses scaled for 0.22 ms (as shipped)", .series = "masses scaled", .generate = "", .settings = {NULL}},
+    {.name = "masses scaled for 0.25 ms", .series = "masses scaled", .generate = "", .settings = {"time.mass_scaling=0.25 ms"}},
+    {.name = "masses scaled for 0.32 ms (as shipped)", .series = "masses scaled", .generate = "", .settings = {NULL}},
 };
 
 typedef struct measured {
