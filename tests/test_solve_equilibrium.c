@@ -349,7 +349,7 @@ static void standing_still_under_load_is_no_equilibrium(void **state)
     assert_int_equal(vsc_newton_create(body.model, &newton, &error), VSC_OK);
     const double size = vsc_body_size(body.model);
     wrong_balance wrong = {body.model, 1, 1 / (5e-15 * size)};
-    const vsc_balance balance = {&wrong, wrong_residual, wrong_tangent};
+    const vsc_balance balance = {&wrong, wrong_residual, wrong_tangent, NULL};
     wrong_residual(&wrong, NULL, body.state->force);
     vsc_newton_begin(newton, body.state->force);
     if (part == 1) newton->scale *= 1.1e3;

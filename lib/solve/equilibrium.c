@@ -58,7 +58,7 @@ vsc_status vsc_equilibrium_start(const vsc_model *model, vsc_state *state, vsc_e
 static vsc_status settle(vsc_newton *newton, statics *s, double *x, int *iterations, vsc_error *error)
 {
   const double tolerance = s->model->solve.incompressible;
-  const vsc_balance balance = {s, residual, assemble};
+  const vsc_balance balance = {s, residual, assemble, NULL};
   double off = 0;
   for (int round = 0; round < VSC_MOST_ROUNDS; round++) {
     int more;

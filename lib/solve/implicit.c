@@ -121,6 +121,7 @@ typedef struct step {
   stepper *s;
   scheme scheme;
   double time;  // at which forces balance, ms
+  double end;   // ms
 } step;
 
 // The scheme's numbers, and into h_a and h_v what it takes from the past.
@@ -195,6 +196,15 @@ static void assemble(void *context, const double *x, const double *before, vsc_t
                        &p->state->scratch);
   vsc_kept_add_tangent(p->s->newton->kept, p->s->middle, part, &tangent->matrix);
   vsc_tangent_add_masses(p->model, tangent, (1 - c->mass_past) * c->A);
+}
+
+// Where the state is, as far as supports and obstacles let it.
+static void stay(void *context, double *x)
+{
+  const step *p = context;
+  memcpy(x, p->state->x, 4 * p->model->node_count * sizeof *x);
+  vsc_touch_put_out(p->s->newton->touch, x);
+  vsc_supports_place(p->model, p->end, 1, x);
 }
 
 // Where the state leads, unless that turns an element inside out.
@@ -274,9 +284,9 @@ static vsc_status do_step(const vsc_model *model, vsc_state *state, double dt, d
                           bool *done, vsc_error *error)
 {
   stepper *s = state->solver;
-  step p = {model, state, s, prepare(model, state, s, dt), 0};
+  step p = {model, state, s, prepare(model, state, s, dt), 0, state->time + dt};
   p.time = state->time + (1 - p.scheme.force_past) * dt;
-  const vsc_balance balance = {&p, residual, assemble};
+  const vsc_balance balance = {&p, residual, assemble, stay};
   vsc_touch_begin(s->newton->touch, state, state->time + dt, true, 1 - p.scheme.force_past,
                   (1 - p.scheme.mass_past) * p.scheme.A);
   vsc_touch_part(s->newton->touch, state, state->a, s->stopped);

@@ -14,6 +14,8 @@
 enum { MOST_HALVINGS = 4, WHY = 160 };
 // Full steps of a stiffening body overshoot, and come back from far away; not from here.
 #define DIVERGED 1e10
+// A start that is out of balance by so many times the forces at work is compared with the other one.
+#define FAR 30.0
 // Systems with a factor are solved at least this well: what bends forgives little.
 #define FACTORIZED 1e-4
 // Positions are rounded to this part of the body's size, and forces with them.
@@ -221,6 +223,25 @@ static vsc_status fail(const vsc_newton *newton, vsc_error *error, double time, 
                   vsc_name_node(model, worst, node, sizeof node), other_ways(model));
 }
 
+// r at x, and its norm.
+static double look(vsc_newton *newton, const vsc_balance *balance, const double *x, const double *before)
+{
+  balance->residual(balance->context, x, newton->r);
+  vsc_touch_push(newton->touch, x, before, newton->r);
+  return free_norm(newton->model, newton->r);
+}
+
+// The norm of r at x, which becomes the other start where that is nearer.
+static double start(vsc_newton *newton, const vsc_balance *balance, double *x)
+{
+  const double norm = look(newton, balance, x, NULL);
+  if (balance->stay == NULL || !(norm > FAR * newton->scale)) return norm;
+  balance->stay(balance->context, newton->before);
+  if (look(newton, balance, newton->before, NULL) < norm)
+    memcpy(x, newton->before, 4 * newton->model->node_count * sizeof *x);
+  return look(newton, balance, x, NULL);
+}
+
 static vsc_status solve(vsc_newton *newton, const vsc_balance *balance, double time, double load, double *x,
                         int *iterations, vsc_error *error)
 {
@@ -231,9 +252,7 @@ static vsc_status solve(vsc_newton *newton, const vsc_balance *balance, double t
   newton->indefinite = false;
   for (int k = 0; k <= VSC_MOST_NEWTON; k++) {
     if (vsc_is_set(newton->interrupted)) return vsc_fail(error, VSC_SYSTEM, "interrupted");
-    balance->residual(balance->context, x, newton->r);
-    vsc_touch_push(newton->touch, x, k > 0 ? newton->before : NULL, newton->r);
-    const double norm = free_norm(model, newton->r);
+    const double norm = k > 0 ? look(newton, balance, x, newton->before) : start(newton, balance, x);
     off = vsc_kept_look(newton->kept, x);
     if (!(first > 0)) first = norm;
     // without loads at rest, a support that moves or a volume that is off is all that is at work

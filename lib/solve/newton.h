@@ -2,7 +2,8 @@
 // Newton's method for a balance of forces r(x) = 0 with a symmetric tangent A = -dr/dx:
 //   A d = r,  x <- x + d,
 // in full steps, which are halved only when a number is no longer finite or an element turns inside
-// out: looking at the residual's norm ruins bending. The linear systems are solved as exactly as the
+// out: looking at the residual's norm ruins bending. It is looked at before the first step alone: where steep laws
+// make a start far worse than the place that the body comes from, that is the start. The linear systems are solved as exactly as the
 // residual deserves (Eisenstat & Walker 1996, choice 2), so convergence is quadratic.
 #ifndef VSC_SOLVE_NEWTON_H
 #define VSC_SOLVE_NEWTON_H
@@ -22,6 +23,7 @@ typedef struct vsc_balance {
   void *context;
   void (*residual)(void *context, const double *x, double *r);
   void (*assemble)(void *context, const double *x, const double *before, vsc_tangent *tangent);
+  void (*stay)(void *context, double *x);  // where else to start from, if forces are far off where it is; or NULL
 } vsc_balance;
 
 // One iteration of one solution, for those who want to see how it went.
