@@ -105,7 +105,7 @@ static const struct {
     {"frames: 20 ms", "frames: 0 ms", "58:", "output.frames:", "above zero"},
     {"checkpoint: 0.1 s", "checkpoint: -1 s", "63:", "output.checkpoint:", "0 ms"},
     {"duration: 300 ms", "duration: 900 ms", "36:", "materials[0].active.curve.period:",
-     "shorter than the duration"},
+     "shorter than start + duration (1000 ms)"},
     {"[1.5, 2.5]", "[3.5, 2.5]", "4:", "surfaces[1].range:", "must not be above"},
     {"normal: [0, 0, 1]", "normal: [0, 0, 0]", "9:", "node_sets[1].plane.normal:", "not zero"},
     {"seed: 7", "seed: -7", "19:", "fibers.seed:", "whole number"},

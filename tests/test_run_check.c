@@ -185,6 +185,30 @@ static void test_warnings_about_the_setting(void **state)
   assert_int_equal(warnings(), 0);
 }
 
+#define CYCLE "--set time.end='1 s' --set time.cycle='80 ms' "
+#define PERIODIC "curve: {kind: half_sine, duration: 20 ms, period: 100 ms}}]'"
+
+// What begins anew each 100 ms does not repeat itself after 80 ms; a period of 40 or 80 ms does.
+static void test_cycles_and_periods(void **state)
+{
+  (void)state;
+  assert_warns(CYCLE "--set 'materials[0].active.curve.period=100 ms'",
+               "time.cycle: 80 ms is no multiple of the period of material muscle, 100 ms");
+  assert_warns(CYCLE "--set 'pressures=[{surface: end, peak: 1 kPa, " PERIODIC, "the period of pressures[0], 100 ms");
+  assert_warns(CYCLE "--set 'supports=[{set: left, held: [x, y, z], motion: [1 mm, 0 mm, 0 mm], " PERIODIC,
+               "the period of the support of left, 100 ms");
+  assert_warns(CYCLE "--set 'obstacles=[{kind: sphere, point: [50 mm, 0 mm, 0 mm], radius: 5 mm, motion: [1 mm, 0 mm, 0 "
+               "mm], " PERIODIC, "the period of obstacles[0], 100 ms");
+  assert_warns(CYCLE "--set 'materials[0].active.curve.period=160 ms'", "the period of material muscle, 160 ms");
+  const char *const fine[2] = {"40 ms", "80 ms"};
+  for (int k = 0; k < 2; k++) {
+    char command[512];
+    snprintf(command, sizeof command, "$V check block.yaml " CYCLE "--set 'materials[0].active.curve.period=%s'", fine[k]);
+    must(command);
+    assert_int_equal(warnings(), 0);
+  }
+}
+
 // The block with cell arrays: one direction everywhere; one for each element; the same with holes;
 // sheets at 45 degrees to the second; zeros.
 static void write_fibres(void)
@@ -431,6 +455,7 @@ int main(void)
       cmocka_unit_test(test_given_step),
       cmocka_unit_test(test_warnings_about_materials),
       cmocka_unit_test(test_warnings_about_the_setting),
+      cmocka_unit_test(test_cycles_and_periods),
       cmocka_unit_test(test_warnings_about_fibres),
       cmocka_unit_test(test_directions_that_nobody_gave),
       cmocka_unit_test(test_sheets_that_are_none),

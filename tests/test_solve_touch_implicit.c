@@ -148,6 +148,32 @@ static void a_ball_makes_no_energy_of_what_slides_round_it(void **state)
   }
 }
 
+// A ball comes from 60 mm away, presses the block by 0.8 mm for a few ms and is gone again, all between two looks at the
+// body: its impulse is that of explicit steps.
+static void a_ball_from_afar_is_met(void **state)
+{
+  (void)state;
+  double impulse[2];
+  for (int k = 0; k < 2; k++) {
+    small_body body;
+    vsc_obstacle_def things[2];
+    open_palpation(&body, things, 0, k == 0 ? VSC_SOLVE_EXPLICIT : VSC_SOLVE_IMPLICIT);
+    things[1].point[2] += 60;
+    things[1].motion[2] = -60.8;
+    things[1].curve = vsc_default_curve(VSC_CURVE_HALF_SINE);
+    things[1].curve.duration = 300;
+    body.definition.end_time = 300;
+    body_build(&body);
+    advance(&body, 10);
+    advance(&body, 300);
+    impulse[k] = -body.state->contact[1].impulse[2];
+    print_message("%.0f steps, %.4g mN ms\n", body.state->steps, impulse[k]);
+    body_close(&body);
+  }
+  assert_true(impulse[0] > 0);
+  assert_close(impulse[1], impulse[0], 0.02, 0);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -155,6 +181,7 @@ int main(void)
       cmocka_unit_test(a_dropped_block_gains_nothing_and_comes_to_rest),
       cmocka_unit_test(a_ball_that_comes_down_is_felt_as_in_explicit_steps),
       cmocka_unit_test(a_ball_makes_no_energy_of_what_slides_round_it),
+      cmocka_unit_test(a_ball_from_afar_is_met),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

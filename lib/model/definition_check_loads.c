@@ -24,6 +24,14 @@ void vsc_check_known(vsc_checker *c, const char *key, const char *name, const vs
                        surface ? "surfaces" : "node_sets");
 }
 
+// A period must hold all that happens until `last` (ms), which is called `what`.
+static void need_period(vsc_checker *c, const vsc_curve_def *curve, double last, const char *what)
+{
+  char remedy[128];
+  snprintf(remedy, sizeof remedy, "shorter than %s (%g ms): give a longer period, or 0 ms for none", what, last);
+  need(c, curve->period == 0 || last <= curve->period, "curve.period", curve->period, "ms", remedy);
+}
+
 static void check_table(vsc_checker *c, const vsc_curve_def *curve)
 {
   char key[64];
@@ -50,8 +58,7 @@ static void check_driver(vsc_checker *c, const vsc_curve_def *curve)
   need_not_negative(c, "curve.rate_pre", curve->rate_pre, "1/ms");
   need_not_negative(c, "curve.rate_mid", curve->rate_mid, "1/ms");
   need_not_negative(c, "curve.filling", curve->filling, "1/ms");
-  need(c, curve->period == 0 || curve->stop <= curve->period, "curve.period", curve->period, "ms",
-       "shorter than the curve: give a period after its stop, or 0 ms for none");
+  need_period(c, curve, curve->stop, "stop");
 }
 
 void vsc_check_curve(vsc_checker *c, const vsc_curve_def *curve)
@@ -72,17 +79,14 @@ void vsc_check_curve(vsc_checker *c, const vsc_curve_def *curve)
     need_positive(c, "curve.fall_power", curve->fall_power, "", "give a power above zero");
   }
   need_not_negative(c, "curve.period", curve->period, "ms");
-  need(c, curve->period == 0 || !lasting || curve->start + curve->duration <= curve->period,
-       "curve.period", curve->period, "ms",
-       "shorter than the duration after the start: give a longer period, or 0 ms for none");
+  if (lasting) need_period(c, curve, curve->start + curve->duration, "start + duration");
   need(c, curve->period == 0 || curve->start >= 0, "curve.start", curve->start, "ms",
        "a curve with a period starts at 0 ms or later");
   if (curve->kind == VSC_CURVE_BESTEL || curve->kind == VSC_CURVE_BESTEL_PRESSURE)
     check_driver(c, curve);
   if (curve->kind == VSC_CURVE_TABLE) check_table(c, curve);
   if (curve->kind == VSC_CURVE_TABLE && curve->point_count > 0)
-    need(c, curve->period == 0 || curve->times[curve->point_count - 1] <= curve->period,
-         "curve.period", curve->period, "ms", "shorter than the table; give a longer period");
+    need_period(c, curve, curve->times[curve->point_count - 1], "the table's last time");
 }
 
 static void check_motion(vsc_checker *c, const vsc_definition *d, const vsc_support_def *support)

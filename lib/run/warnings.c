@@ -302,6 +302,35 @@ static void warn_setting(writer *w, const vsc_problem *problem)
     warn(w, "materials: no damping, so vibrations never die away");
 }
 
+__attribute__((format(printf, 4, 5))) static void warn_period(writer *w, const vsc_model *model, const vsc_curve *curve,
+                                                              const char *format, ...)
+{
+  char load[256];
+  const double cycles = curve->period > 0 ? model->cycle / curve->period : 1;
+  if (cycles > 0.5 && fabs(cycles - round(cycles)) <= 1e-6) return;
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(load, sizeof load, format, arguments);
+  va_end(arguments);
+  warn(w, "time.cycle: %g ms is no multiple of the period of %s, %g ms, so that a cycle does not have the loads of the last: "
+       "give a multiple", model->cycle, load, curve->period);
+}
+
+static void warn_cycle(writer *w, const vsc_model *model)
+{
+  if (!(model->cycle > 0)) return;
+  for (size_t m = 0; m < model->material_count; m++)
+    if (model->materials[m].active != VSC_ACTIVE_NONE)
+      warn_period(w, model, &model->materials[m].curve, "material %s", model->materials[m].name);
+  for (size_t p = 0; p < model->pressure_count; p++)
+    warn_period(w, model, &model->pressures[p].curve, "pressures[%zu]", p);
+  for (size_t s = 0; s < model->moved_count; s++)
+    warn_period(w, model, &model->moved[s].curve, "the support of %s", model->moved[s].set);
+  for (size_t o = 0; o < model->obstacle_count; o++)
+    if (vsc_norm(model->obstacles[o].motion) > 0)
+      warn_period(w, model, &model->obstacles[o].curve, "obstacles[%zu]", o);
+}
+
 static void warn_idle_keys(writer *w, const vsc_scene *scene)
 {
   static const char *const kinds[] = {
@@ -324,6 +353,7 @@ int vsc_check_warnings(const vsc_problem *problem, bool thorough, FILE *stream, 
   warn_vessels(&w, problem);
   warn_prestress(&w, problem);
   warn_setting(&w, problem);
+  warn_cycle(&w, problem->model);
   warn_idle_keys(&w, problem->scene);
   return w.count;
 }

@@ -327,7 +327,7 @@ vsc_status vsc_implicit_to(const vsc_model *model, vsc_state *state, double unti
   while (state->time < until * (1 - 1e-12)) {
     const double rest = until - state->time;
     double longest = fmin(state->limit.step, rest);
-    if (!(model->step > 0)) longest = vsc_model_calm(model, state->time, longest);
+    if (!(model->step > 0)) longest = vsc_model_calm(model, state->x, state->time, longest);
     const double parts = fmax(ceil(rest / longest * (1 - 1e-9)), 1);
     const double dt = rest / parts;
     double allowed = model->step > 0 ? model->step : state->limit.step;

@@ -35,8 +35,8 @@ vsc_status vsc_implicit_start(const vsc_model *model, vsc_state *state, vsc_erro
 // length; else the estimate of a step's error,
 //   e = c dt^2 rms |a_1 - a_0|,  c = |beta - 1/6|, BDF2: 2/9,
 // is kept below solve.accuracy times the size of the body: a step with a larger one is done again,
-// shorter; and no step is longer than loads stay about what they are (model/calm.h). Where Newton's method fails
-// the step is cut to 0.4. VSC_NUMERICAL when the step falls below 1e-6 of the way.
+// shorter; and no step is longer than loads keep to a straight line and obstacles may move (model/calm.h). Where
+// Newton's method fails the step is cut to 0.4. VSC_NUMERICAL when the step falls below 1e-6 of the way.
 vsc_status vsc_implicit_to(const vsc_model *model, vsc_state *state, double until, vsc_error *error);
 
 // Newton's part of a state that has been started, and the counts of its steps.
