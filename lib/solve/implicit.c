@@ -334,11 +334,7 @@ vsc_status vsc_implicit_to(const vsc_model *model, vsc_state *state, double unti
     bool done;
     const vsc_status status = do_step(model, state, dt, &allowed, &done, error);
     if (status != VSC_OK && (status != VSC_NUMERICAL || allowed < SHORTEST_STEP * way)) return status;
-    // a stop nearer than the step that accuracy allows must not shorten the steps behind it
-    if (!done || allowed < state->limit.step || parts > 1 || model->step > 0)
-      state->limit.step = allowed;
-    else
-      state->limit.step = fmax(allowed, state->limit.step);
+    state->limit.step = allowed;
     if (!done) continue;
     state->steps++;
     state->time = parts == 1 ? until : state->time + dt;
