@@ -92,6 +92,22 @@ static void what_fails_leaves_no_trace(void **state)
   body_close(&body);
 }
 
+// Volumes that no number of rounds keeps: the bar is at rest as it was, and so are the multipliers.
+static void an_equilibrium_that_is_not_found(void **state)
+{
+  (void)state;
+  vsc_error error;
+  small_body body;
+  open_bar(&body, 8);
+  body.definition.solve.incompressible = 1e-17;
+  body_build(&body);
+  assert_int_equal(solve_to(&body, 25, &error), VSC_NUMERICAL);
+  assert_non_null(strstr(error.text, "a volume is still off by"));
+  for (size_t n = 0; n < body.model->node_count; n++) assert_true(body.state->scratch.node_multiplier[n] == 0);
+  body_must_be_stretched(&body, (const double[]){1, 1, 1}, 0);
+  body_close(&body);
+}
+
 // Without solver.incompressible there are none, with which these do nothing.
 static void nothing_without(void **state)
 {
@@ -114,6 +130,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(rounds_are_few),
       cmocka_unit_test(what_fails_leaves_no_trace),
+      cmocka_unit_test(an_equilibrium_that_is_not_found),
       cmocka_unit_test(nothing_without),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
