@@ -105,6 +105,19 @@ static inline void holds_at(const char *text, const char *part, const char *file
   _fail(file, line);
 }
 
+// The line of the last output that begins with `word`; valid until the next call.
+static inline const char *line_of(const char *word)
+{
+  static char line[1024];
+  char start[64];
+  snprintf(start, sizeof start, "\n%s ", word);
+  const char *found = strncmp(said, start + 1, strlen(start) - 1) == 0 ? said : strstr(said, start);
+  if (found == NULL) fail_msg("no line '%s' in '%s'", word, said);
+  found += *found == '\n';
+  snprintf(line, sizeof line, "%.*s", (int)strcspn(found, "\n"), found);
+  return line;
+}
+
 static inline void same_files_at(const char *a, const char *b, const char *file, int line)
 {
   static char first[PROGRAM_TEXT], second[PROGRAM_TEXT];

@@ -47,6 +47,18 @@ static void test_control_characters_become_spaces(void **state)
   assert_string_equal(error.text, "a b c  [31md \xc3\xa9");  // UTF-8 stays
 }
 
+static void test_entries_of_lists(void **state)
+{
+  (void)state;
+  vsc_error error;
+  assert_int_equal(vsc_in_list("surfaces", 2, vsc_fail(&error, VSC_INPUT, "end: is %s", "odd"), &error), VSC_INPUT);
+  assert_string_equal(error.text, "surfaces[2] end: is odd");
+  assert_int_equal(vsc_in_list("surfaces", 2, vsc_fail(&error, VSC_SYSTEM, "none"), &error), VSC_SYSTEM);
+  assert_string_equal(error.text, "none");
+  assert_int_equal(vsc_in_list("surfaces", 2, VSC_OK, &error), VSC_OK);
+  assert_int_equal(vsc_in_list("surfaces", 2, VSC_INPUT, NULL), VSC_INPUT);
+}
+
 static void test_memory(void **state)
 {
   (void)state;
@@ -62,7 +74,7 @@ int main(void)
       cmocka_unit_test(test_exit_codes),
       cmocka_unit_test(test_long_text_is_cut),
       cmocka_unit_test(test_control_characters_become_spaces),
-      cmocka_unit_test(test_memory),
+      cmocka_unit_test(test_entries_of_lists), cmocka_unit_test(test_memory),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

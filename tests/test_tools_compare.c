@@ -112,22 +112,40 @@ static void quadratic_fields_on_quadratic_tets(void **state)
   assert_true(n[0] > 0.1);  // linear ones miss up to h^2/8 times the second derivative
 }
 
+// Two tets, of volume 1/6 and 1/2, with a number each.
+static void write_two(const char *file, const char *name, const double values[2])
+{
+  static const double x[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -3};
+  static const uint32_t corners[8] = {0, 1, 2, 3, 0, 2, 1, 4};
+  vsc_mesh *mesh = NULL;
+  if (vsc_mesh_from_arrays(5, x, 2, corners, &mesh, NULL) != VSC_OK) fail_msg("no mesh");
+  const vsc_vtk_array array = {name, 1, values, VSC_ON_ELEMENTS, false};
+  if (vsc_vtk_write_mesh(in_folder(file), mesh, 1, &array, true, NULL) != VSC_OK) fail_msg("not written");
+  vsc_mesh_free(mesh);
+}
+
+// Angles of axes, of which 89.5 and -89 degrees are 1.5 apart, and -30 and 50 as far as they look.
+static void angles_of_axes(void **state)
+{
+  (void)state;
+  double n[5];
+  write_two("turned_a.vtu", "helix_angle", (const double[]){89.5, -30});
+  write_two("turned_b.vtu", "helix_angle", (const double[]){-89, -30});
+  write_two("turned_c.vtu", "helix_angle", (const double[]){89.5, 50});
+  must("$V compare turned_a.vtu turned_b.vtu");
+  norms_of("helix_angle", n);
+  assert_close(n[0], 1.5, 1e-5, 0);
+  must("$V compare turned_a.vtu turned_c.vtu");
+  norms_of("helix_angle", n);
+  assert_close(n[0], 80, 1e-5, 0);
+}
+
 // Two tets of volume 1/6 and 1/2: a difference of 1 in the small one, of the value 1 in both.
 static void norms_by_volume(void **state)
 {
   (void)state;
-  static const double x[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -3};
-  static const uint32_t corners[8] = {0, 1, 2, 3, 0, 2, 1, 4};
-  static const double values[2][2] = {{2, 1}, {1, 1}};
-  for (int k = 0; k < 2; k++) {
-    vsc_mesh *mesh = NULL;
-    if (vsc_mesh_from_arrays(5, x, 2, corners, &mesh, NULL) != VSC_OK) fail_msg("no mesh");
-    const vsc_vtk_array array = {"c", 1, values[k], VSC_ON_ELEMENTS, false};
-    if (vsc_vtk_write_mesh(in_folder(k ? "two_b.vtu" : "two_a.vtu"), mesh, 1, &array, true, NULL) !=
-        VSC_OK)
-      fail_msg("not written");
-    vsc_mesh_free(mesh);
-  }
+  write_two("two_a.vtu", "c", (const double[]){2, 1});
+  write_two("two_b.vtu", "c", (const double[]){1, 1});
   for (int way = 0; way < 2; way++) {
     double n[5];
     must(way == 0 ? "$V compare two_a.vtu two_b.vtu" : "$V compare --interpolate two_a.vtu two_b.vtu");
@@ -421,6 +439,7 @@ int main(void)
       cmocka_unit_test(linear_fields_are_interpolated_exactly),
       cmocka_unit_test(quadratic_fields_on_quadratic_tets),
       cmocka_unit_test(norms_by_volume),
+      cmocka_unit_test(angles_of_axes),
       cmocka_unit_test(places_outside),
       cmocka_unit_test(nothing_compared_is_no_success),
       cmocka_unit_test(elements_in_another_order),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The program from outside: its dispatch, `viscera info`, `viscera compare`.
 #include "close.h"
+#include "trap.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -204,6 +205,21 @@ static void test_info(void **state)
   assert_int_equal(run("info LOUD.VTU"), 0);
 }
 
+static void test_info_of_strange_numbers(void **state)
+{
+  (void)state;
+  static const double points[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, none[4] = {NAN, NAN, NAN, INFINITY},
+                      some[4] = {NAN, 4, -INFINITY, 5};
+  static const uint32_t corners[4] = {0, 1, 2, 3};
+  const vsc_vtk_array arrays[] = {{"none", 1, none, VSC_ON_NODES, false}, {"some", 1, some, VSC_ON_NODES, false}};
+  trap_off();
+  assert_int_equal(write_tets(in_folder("strange.vtu"), 4, points, 1, corners, 0, NULL, 2, arrays, true, NULL), VSC_OK);
+  trap_on();
+  assert_int_equal(run("info strange.vtu"), 0);
+  assert_holds(said, " no finite number\n");
+  assert_holds(said, " 4 to 5, 2 NOT FINITE\n");
+}
+
 static void save_scene(const char *material)
 {
   FILE *stream = fopen(in_folder("scene.yaml"), "w");
@@ -350,7 +366,7 @@ int main(void)
       cmocka_unit_test(test_a_full_disk_is_an_error),
       cmocka_unit_test(test_info_of_an_image_with_both),
       cmocka_unit_test(test_info),
-      cmocka_unit_test(test_info_of_scenes),
+      cmocka_unit_test(test_info_of_strange_numbers), cmocka_unit_test(test_info_of_scenes),
       cmocka_unit_test(test_info_says_what_is_wrong),
       cmocka_unit_test(test_compare_meshes),
       cmocka_unit_test(test_surfaces),

@@ -78,6 +78,12 @@ static void turn_towards(const double a[3], double axis[3])
   for (size_t c = 0; c < 3 && along < 0; c++) axis[c] = -axis[c];
 }
 
+// The angle of an axis, degrees: 180 more is the same. Brought to within 90 of `a`.
+static double turn_angle(double a, double angle)
+{
+  return isfinite(a) && isfinite(angle) ? a - remainder(a - angle, 180) : angle;
+}
+
 static vsc_status add_array(vsc_comparison *all, const places *at, const vsc_array *a,
                             const vsc_array *b, vsc_error *error)
 {
@@ -86,6 +92,7 @@ static vsc_status add_array(vsc_comparison *all, const places *at, const vsc_arr
   const size_t width = (size_t)a->components;
   if (n == NULL || !VSC_NEW(value, width)) return vsc_fail_memory(error, "the comparison");
   const bool axes = is_axis(b) && strcmp(at->name, "elements") == 0;
+  const bool angles = b->components == 1 && strcmp(b->name, "helix_angle") == 0;
   for (size_t i = 0; i < at->count; i++) {
     const double *first = a->values + width * i;
     if (at->in_b != NULL && at->in_b[i].distance > at->pair->limit) {
@@ -94,6 +101,7 @@ static vsc_status add_array(vsc_comparison *all, const places *at, const vsc_arr
     }
     value_of_b(at, b, i, value);
     if (axes) turn_towards(first, value);
+    if (angles) value[0] = turn_angle(first[0], value[0]);
     for (size_t c = 0; c < width; c++)
       add_value(n, first[c], value[c], at->volumes != NULL ? at->volumes[i] : 0);
   }

@@ -33,8 +33,8 @@ typedef struct vsc_comparison {
 // connectivity, whose positions are compared too) value by value; else the arrays of B, the reference, are
 // interpolated at A's nodes, and A's elements take the values of those of B in which their centres
 // lie. The latter also where only the nodes are the same. Elements' fibre axes, which have no sign, are
-// compared with the sign that is nearer. `pair` is made for the first
-// files and again only when meshes change. VSC_INPUT for files that cannot be read, and for different
+// compared with the sign that is nearer, and so is their helix_angle, modulo 180 degrees. `pair` is made for the
+// first files and again only when meshes change. VSC_INPUT for files that cannot be read, and for different
 // meshes of which one is a surface.
 vsc_status vsc_compare_files(vsc_comparison *all, vsc_pair *pair, const char *file_a,
                              const char *file_b, vsc_error *error);

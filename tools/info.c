@@ -48,20 +48,25 @@ static void print_range(const vsc_array *array)
     const double *tuple = array->values + t * (size_t)array->components;
     double value = tuple[0];
     if (array->components == 3) value = vsc_norm(tuple);
-    if (!isfinite(value)) strange++;
+    if (!isfinite(value)) {
+      strange++;
+      continue;
+    }
     low = fmin(low, value);
     high = fmax(high, value);
   }
   printf("    %-20s", array->name);
   if (array->tuples == 0)
     printf(" empty");
+  else if (strange == array->tuples)
+    printf(" no finite number");
   else if (array->components == 1)
     printf(" %g to %g", low, high);
   else if (array->components == 3)
     printf(" 3 components, length %g to %g", low, high);
   else
     printf(" %d components, the first %g to %g", array->components, low, high);
-  if (strange > 0) printf(", %zu NOT FINITE", strange);
+  if (strange > 0 && strange < array->tuples) printf(", %zu NOT FINITE", strange);
   putchar('\n');
 }
 

@@ -17,6 +17,13 @@ vsc_status vsc_fail(vsc_error *error, vsc_status status, const char *format, ...
   return status;
 }
 
+vsc_status vsc_in_list(const char *list, size_t index, vsc_status status, vsc_error *error)
+{
+  if (status != VSC_INPUT || error == NULL) return status;
+  const vsc_error bare = *error;
+  return vsc_fail(error, status, "%s[%zu] %s", list, index, bare.text);
+}
+
 vsc_status vsc_fail_memory(vsc_error *error, const char *what)
 {
   return vsc_fail(error, VSC_SYSTEM,

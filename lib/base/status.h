@@ -3,6 +3,8 @@
 #ifndef VSC_BASE_STATUS_H
 #define VSC_BASE_STATUS_H
 
+#include <stddef.h>
+
 // The values are the exit codes of the program.
 typedef enum vsc_status {
   VSC_OK = 0,         // done
@@ -24,6 +26,9 @@ typedef struct vsc_error {
 // Control characters of the formatted text become spaces; a text that is too long is cut.
 vsc_status vsc_fail(vsc_error *error, vsc_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+
+// Puts "list[index] ", which entry of a scene is meant, before the message of a `status` VSC_INPUT; returns `status`.
+vsc_status vsc_in_list(const char *list, size_t index, vsc_status status, vsc_error *error);
 
 // Shorthand for running out of memory while making `what` (a noun phrase).
 vsc_status vsc_fail_memory(vsc_error *error, const char *what);

@@ -105,7 +105,7 @@ static const vsc_row time_rows[] = {
     {"cycle_tolerance", NUMBER(vsc_definition, cycle_tolerance), .commented = true, .text = "1e-3",
      .meaning = "to which it has to, as a part of the stroke and of the speed"},
     {"mass_scaling", QUANTITY(vsc_definition, mass_scaling, VSC_TIME), .commented = true, .text = "0.05 ms",
-     .meaning = "mass is added at the stiffest elements until steps may be as long; default 0 ms: none"},
+     .meaning = "mass, but no weight, is added at the stiffest elements until steps may be as long; default 0 ms: none"},
     {"most_added_mass", NUMBER(vsc_definition, most_added_mass), .commented = true, .text = "0.05",
      .meaning = "part of the body's mass that this may add"},
 };
@@ -154,7 +154,8 @@ static const vsc_row output_rows[] = {
     {"centre", VECTOR(vsc_output_def, centre, VSC_LENGTH), .text = "[0 mm, 0 mm, 0 mm]",
      .meaning = "helix_angle: a point that this axis goes through"},
     {"signals", QUANTITY(vsc_output_def, signal_interval, VSC_TIME), .text = "1 ms",
-     .meaning = "between rows of signals.csv; default of implicit steps and equilibria: as the frames"},
+     .meaning = "between rows of signals.csv, over which reactions of obstacles and supports are means (equilibria: the "
+                "force now); default of implicit steps and equilibria: as the frames"},
     {"cavities", .kind = VSC_ROW_NAMES, LIST_AT(vsc_output_def, cavities, cavity_count),
      .count = VSC_OUTPUT_ARRAYS, .text = "[endo]",
      .meaning = "surfaces whose (capped) volume is a signal"},
@@ -211,7 +212,8 @@ static const vsc_row vsc_scene_group_rows[] = {
     {"membranes", SCENE_PARTS(membranes, membrane_count, vsc_membrane_group), .commented = true,
      .meaning = "sheets on surfaces: capsule, valve, cloth"},
     {"obstacles", SCENE_PARTS(obstacles, obstacle_count, vsc_obstacle_group), .commented = true,
-     .meaning = "rigid things that no node enters"},
+     .meaning = "rigid things that no node enters; their reaction, a signal, is its mean since the row before (equilibria: "
+                "the force now)"},
     {"supports", SCENE_PARTS(supports, support_count, vsc_support_group),
      .meaning = "what holds the tissue"},
     {"robin", SCENE_PARTS(robins, robin_count, vsc_robin_group), .commented = true,

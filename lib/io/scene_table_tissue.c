@@ -271,7 +271,8 @@ static const vsc_row vsc_support_group_rows[] = {
     {"held", .kind = VSC_ROW_FLAGS, AT(vsc_support_def, held), .words = directions,
      .needed = VSC_ALWAYS, .text = "[x, y, z]", .meaning = "directions that cannot move freely"},
     {"motion", VECTOR(vsc_support_def, motion, VSC_LENGTH), .text = "[0 mm, 0 mm, 0 mm]",
-     .meaning = "how far held directions have moved where the curve is 1"},
+     .meaning = "how far held directions have moved where the curve is 1; the force that this takes is a signal, the mean "
+                "since the row before (equilibria: the force now)"},
     {"curve", PART(offsetof(vsc_support_def, curve), vsc_curve_group), .commented = true,
      .meaning = "of time, for motion"},
 };

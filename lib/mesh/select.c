@@ -93,8 +93,8 @@ static vsc_status find_array(const vsc_arrays *arrays, const char *kind,
   if (*array == NULL) {
     char hint[384];
     vsc_arrays_hint(arrays, selector->array, hint, sizeof hint);
-    return vsc_fail(error, VSC_INPUT, "%s: the mesh has no %s array %s%s", selector->name, kind,
-                    selector->array, hint);
+    return vsc_fail(error, VSC_INPUT, "%s: %s_array: the mesh has no %s array '%s'%s", selector->name, kind,
+                    kind, selector->array, hint);
   }
   if ((*array)->components != 1)
     return vsc_fail(error, VSC_INPUT,

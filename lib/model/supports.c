@@ -23,8 +23,10 @@ vsc_status vsc_terms_selections(const vsc_mesh *mesh, const vsc_definition *defi
   vsc_surface boundary = {0};
   vsc_status status = vsc_boundary(mesh, &boundary, error);
   for (size_t s = 0; status == VSC_OK && s < definition->surface_count; s++)
-    status = vsc_select_surface(mesh, &boundary, &definition->surfaces[s],
-                                &model->surfaces[model->surface_count++], error);
+    status = vsc_in_list("surfaces", s,
+                         vsc_select_surface(mesh, &boundary, &definition->surfaces[s],
+                                            &model->surfaces[model->surface_count++], error),
+                         error);
   if (status != VSC_OK || taken) {
     vsc_surface_free(&boundary);
   } else {
@@ -32,8 +34,10 @@ vsc_status vsc_terms_selections(const vsc_mesh *mesh, const vsc_definition *defi
     model->surfaces[model->surface_count++] = boundary;
   }
   for (size_t s = 0; status == VSC_OK && s < definition->set_count; s++)
-    status = vsc_select_nodes(mesh, &definition->sets[s], model->surfaces, model->surface_count,
-                              &model->sets[model->set_count++], error);
+    status = vsc_in_list("node_sets", s,
+                         vsc_select_nodes(mesh, &definition->sets[s], model->surfaces, model->surface_count,
+                                          &model->sets[model->set_count++], error),
+                         error);
   return status;
 }
 

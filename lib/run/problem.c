@@ -43,7 +43,9 @@ static vsc_status select_surfaces(const vsc_problem *problem, named_surfaces *su
   vsc_surface *boundary = &surfaces->items[named];
   vsc_status status = vsc_boundary(problem->mesh, boundary, error);
   for (size_t s = 0; s < named && status == VSC_OK; s++)
-    status = vsc_select_surface(problem->mesh, boundary, &definition->surfaces[s], &surfaces->items[s], error);
+    status = vsc_in_list("surfaces", s,
+                         vsc_select_surface(problem->mesh, boundary, &definition->surfaces[s], &surfaces->items[s], error),
+                         error);
   return status;
 }
 

@@ -41,23 +41,24 @@ static void write_steps(const vsc_job *job, FILE *file)
   if (limit->span > 0) write_number(file, "steps_saved", limit->span / limit->least - job->state->steps, ",");
 }
 
+// What Newton's method has done since this run began, a resumed one too: checkpoints do not have it.
 static void write_newton(const vsc_job *job, FILE *file)
 {
   const vsc_model *model = job->problem->model;
   const vsc_newton *newton = vsc_solve_newton(model, job->state);
   if (newton == NULL) return;
   const vsc_linear_counts linear = vsc_linear_counted(newton->linear);
-  write_number(file, "newton_solutions", newton->solutions, ",");
-  write_number(file, "newton_iterations", newton->iterations, ",");
-  write_number(file, "newton_failures", newton->failures, ",");
-  write_number(file, "linear_iterations", linear.iterations, ",");
-  write_number(file, "factorizations", linear.factorizations, ",");
+  write_number(file, "newton_solutions_this_run", newton->solutions, ",");
+  write_number(file, "newton_iterations_this_run", newton->iterations, ",");
+  write_number(file, "newton_failures_this_run", newton->failures, ",");
+  write_number(file, "linear_iterations_this_run", linear.iterations, ",");
+  write_number(file, "factorizations_this_run", linear.factorizations, ",");
   write_number(file, "factor_entries", linear.factor_entries, ",");
   write_number(file, "factor_flops", linear.factor_flops, ",");
   if (model->solve.kind != VSC_SOLVE_IMPLICIT) return;
   const vsc_implicit_counts counts = vsc_implicit_counted(job->state);
-  write_number(file, "steps_rejected", counts.rejected, ",");
-  write_number(file, "steps_failed", counts.failed, ",");
+  write_number(file, "steps_rejected_this_run", counts.rejected, ",");
+  write_number(file, "steps_failed_this_run", counts.failed, ",");
   write_number(file, "most_energy_made_part", vsc_watch_energy_made(job->watch), ",");
   write_number(file, "energy_taken_part", -job->watch->balance / job->watch->energy_scale, ",");
 }

@@ -54,8 +54,8 @@ vsc_status vsc_equilibrium_start(const vsc_model *model, vsc_state *state, vsc_e
   return VSC_OK;
 }
 
-// The equilibrium from x; with solve.incompressible again and again, until no volume is off.
-static vsc_status settle(vsc_newton *newton, statics *s, double *x, int *iterations, vsc_error *error)
+// Balances again and again until no volume is off; with no multipliers once.
+static vsc_status go_rounds(vsc_newton *newton, statics *s, double *x, int *iterations, vsc_error *error)
 {
   const double tolerance = s->model->solve.incompressible;
   const vsc_balance balance = {s, residual, assemble, NULL};
@@ -65,14 +65,23 @@ static vsc_status settle(vsc_newton *newton, statics *s, double *x, int *iterati
     const vsc_status status =
         vsc_newton_solve(newton, &balance, s->time, s->state->scratch.load, x, &more, error);
     *iterations = round == 0 ? more : *iterations;
-    if (status != VSC_OK || !(tolerance > 0)) return status;
-    off = vsc_multipliers_update(s->model, x, &s->state->scratch);
+    if (status != VSC_OK || newton->multipliers == NULL) return status;
+    off = vsc_multipliers_update(newton->multipliers, x, &s->state->scratch);
     if (off <= tolerance) return VSC_OK;
   }
   return vsc_fail(error, VSC_NUMERICAL,
                   "at %.6g ms a volume is still off by %.3g of itself after %d rounds of multipliers, not "
                   "below %.3g; take a larger volume_modulus or solver.incompressible",
                   s->time, off, VSC_MOST_ROUNDS, tolerance);
+}
+
+// The equilibrium from x. Where there is none multipliers are what they were.
+static vsc_status settle(vsc_newton *newton, statics *s, double *x, int *iterations, vsc_error *error)
+{
+  vsc_multipliers_begin(newton->multipliers, &s->state->scratch);
+  const vsc_status status = go_rounds(newton, s, x, iterations, error);
+  if (status != VSC_OK) vsc_multipliers_restore(newton->multipliers, &s->state->scratch);
+  return status;
 }
 
 // Where the last increment leads when it goes on for dt, unless that turns an element inside out; supports that

@@ -9,7 +9,6 @@
 #include "mech/element.h"
 #include "mech/loads.h"
 #include "model/free_motions.h"
-#include "solve/incompressible.h"
 
 enum { MOST_HALVINGS = 4, WHY = 160 };
 // Full steps of a stiffening body overshoot, and come back from far away; not from here.
@@ -40,6 +39,7 @@ vsc_status vsc_newton_create(const vsc_model *model, vsc_newton **newton, vsc_er
     status = vsc_linear_create(model, made->tangent, model->solve.linear, &made->linear, error);
   if (status == VSC_OK) status = vsc_kept_create(model, &made->kept, error);
   if (status == VSC_OK) status = vsc_touch_create(model, made->size, &made->touch, error);
+  if (status == VSC_OK) status = vsc_multipliers_create(model, &made->multipliers, error);
   if (status == VSC_OK && (!VSC_NEW(made->r, count) || !VSC_NEW(made->d, count) ||
                            !VSC_NEW(made->trial, count) || !VSC_NEW(made->before, count)))
     status = vsc_fail_memory(error, "Newton's method");
@@ -58,6 +58,7 @@ void vsc_newton_free(vsc_newton *newton)
   vsc_linear_free(newton->linear);
   vsc_kept_free(newton->kept);
   vsc_touch_free(newton->touch);
+  vsc_multipliers_free(newton->multipliers);
   vsc_free(newton->r);
   vsc_free(newton->d);
   vsc_free(newton->trial);

@@ -10,6 +10,7 @@
 
 #include "mech/state.h"
 #include "mech/tangent.h"
+#include "solve/incompressible.h"
 #include "solve/kept_balance.h"
 #include "solve/linear.h"
 #include "solve/touch.h"
@@ -42,6 +43,7 @@ typedef struct vsc_newton {
   vsc_linear *linear;
   vsc_kept_balance *kept;  // NULL where no volumes are kept; owned
   vsc_touch *touch;  // contact with obstacles; NULL without
+  vsc_multipliers *multipliers;  // of solve.incompressible; NULL without; owned
   double *r, *d, *trial, *before;  // node_count x 4
   double size;            // of the body, mm
   double scale;           // of the forces at work, mN

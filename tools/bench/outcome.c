@@ -32,7 +32,7 @@ static vsc_status read_summary(const char *folder, vsc_outcome *outcome, vsc_err
   outcome->nodes = summary_number(text, "nodes");
   outcome->elements = summary_number(text, "elements");
   outcome->unknowns = 3 * (outcome->nodes - summary_number(text, "held_nodes"));
-  outcome->iterations = summary_number(text, "newton_iterations");
+  outcome->iterations = summary_number(text, "newton_iterations_this_run");
   outcome->steps = summary_number(text, "steps");
   return VSC_OK;
 }
