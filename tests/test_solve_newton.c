@@ -21,10 +21,11 @@ static void open_hanging(small_body *body, vsc_solve_kind kind)
 static void lost_positions_are_told(void **state)
 {
   (void)state;
-  for (int kind = VSC_SOLVE_IMPLICIT; kind <= VSC_SOLVE_EQUILIBRIUM; kind++) {
+  static const vsc_solve_kind kinds[] = {VSC_SOLVE_IMPLICIT, VSC_SOLVE_EQUILIBRIUM};
+  for (int k = 0; k < 2; k++) {
     small_body body;
     vsc_error error = {.text = ""};
-    open_hanging(&body, (vsc_solve_kind)kind);
+    open_hanging(&body, kinds[k]);
     assert_int_equal(vsc_solve_start(body.model, body.state, &error), VSC_OK);
     body.state->x[4 * body_node(&body, 22) + 2] = NAN;
     trap_off();
