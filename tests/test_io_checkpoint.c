@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#define _GNU_SOURCE  // memmem
+#define _GNU_SOURCE  // memmem, dladdr
+#include <dlfcn.h>
 #include <inttypes.h>
 
 #include "close.h"
 #include "io/checkpoint.h"
+#include "io/hdf5.h"
 #include "scratch.h"
 
 static const uint64_t HASH = UINT64_C(0xfedcba9876543210);
@@ -180,6 +182,36 @@ static void hdf5_is_silent(void **state)
   assert_int_equal(printed, 0);
 }
 
+// HDF5's own function of this name, found through the module beside the library.
+static void *hdf5_function(const char *name)
+{
+  char module[600];
+  Dl_info library;
+  assert_int_not_equal(dladdr((void *)(uintptr_t)vsc_checkpoint_read, &library), 0);
+  const char *slash = strrchr(library.dli_fname, '/');
+  snprintf(module, sizeof module, "%.*s/viscera/hdf5.so", (int)(slash - library.dli_fname), library.dli_fname);
+  void *handle = dlopen(module, RTLD_LAZY | RTLD_NOLOAD);
+  void *function = handle != NULL ? dlsym(handle, name) : NULL;
+  if (function == NULL) fail_msg("%s: no %s", module, name);
+  dlclose(handle);
+  return function;
+}
+
+// Who uses HDF5 beside the library is told of errors as before.
+static void hdf5_prints_again(void **state)
+{
+  (void)state;
+  const char *path = scratch_text("text.h5", "garbage");
+  void *before = NULL, *after = NULL, *data;
+  int (*handler)(int64_t, void **, void **);
+  assert_int_equal(vsc_checkpoint_ready(NULL), VSC_OK);
+  *(void **)&handler = hdf5_function("H5Eget_auto2");
+  assert_true(handler(0, &before, &data) >= 0 && before != NULL);
+  assert_int_equal(vsc_hdf5_contents(path, stdout, NULL), VSC_INPUT);
+  assert_true(handler(0, &after, &data) >= 0);
+  assert_ptr_equal(after, before);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -192,6 +224,7 @@ int main(void)
     cmocka_unit_test(damaged_numbers_are_refused),
     cmocka_unit_test(what_cannot_be_written_is_reported),
     cmocka_unit_test(hdf5_is_silent),
+    cmocka_unit_test(hdf5_prints_again),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }

@@ -114,7 +114,7 @@ static void times_and_names_come_back_exactly(void **state)
 {
   (void)state;
   const double times[] = {-0.25, 0.1 + 0.2, 1. / 3, 1e5 + 1e-9};
-  const char *names[] = {"a&b <c>.vtu", "\"quoted\" 'q'.vtu", "&amp;.vtu", "plain.vtu"};
+  const char *names[] = {"a&b <c>.vtu", "\"quoted\" 'q'\t.vtu", "&amp;.vtu", "plain.vtu"};
   vsc_pvd *pvd;
   assert_int_equal(vsc_pvd_open(scratch("odd.pvd"), -1, &pvd, NULL), VSC_OK);
   for (int i = 0; i < 4; i++) add(pvd, times[i], names[i]);
@@ -140,6 +140,46 @@ static void other_programs_files_are_read(void **state)
   assert_true(vsc_pvd_time(pvd, 0) == 0.15);
   assert_string_equal(vsc_pvd_frame(pvd, 0), "a.vtu");
   vsc_pvd_free(pvd);
+}
+
+// Comments, spaces round =, characters by number, elements that are none of ours, a list within another one.
+static void all_of_xml_is_understood(void **state)
+{
+  (void)state;
+  const char *text = "<?xml version='1.0' encoding='UTF-8'?>\n<!DOCTYPE VTKFile>\n"
+                     "<VTKFile type='Collection'><DataSet timestep='0' file='outside.vtu'/><Collection>\n"
+                     "<!-- <DataSet timestep='1' file='nowhere.vtu'/> -->\n"
+                     "<DataSet timestep = '2' file\n=\n'a&#38;b&#x2e;vtu'/>\n"
+                     "<Note><DataSet timestep='3' file='inside.vtu'/><![CDATA[<DataSet>]]></Note>\n"
+                     "<DataSet other='file=\"c\" timestep=\"9\"' timestep='4' file='d>.vtu'/>\n"
+                     "</Collection></VTKFile>";
+  vsc_pvd *pvd;
+  assert_int_equal(vsc_pvd_open(scratch_text("legal.pvd", text), 9, &pvd, NULL), VSC_OK);
+  assert_int_equal(vsc_pvd_count(pvd), 2);
+  assert_true(vsc_pvd_time(pvd, 0) == 2 && vsc_pvd_time(pvd, 1) == 4);
+  assert_string_equal(vsc_pvd_frame(pvd, 0), "a&b.vtu");
+  assert_string_equal(vsc_pvd_frame(pvd, 1), "d>.vtu");
+  vsc_pvd_free(pvd);
+}
+
+static void a_fault_has_its_line(void **state)
+{
+  (void)state;
+  const struct {
+    const char *text, *said;
+  } cases[] = {
+      {"<VTKFile>\n<Collection>\n<DataSet timestep='x' file='a'/></Collection></VTKFile>",
+       "is not a complete PVD file (line 3: a DataSet without timestep or file)"},
+      {"<VTKFile>\n<Collection>\n", "is not a complete PVD file (line 3: "},
+      {"<VTKFile><Piece/></VTKFile>", "is not a complete PVD file (no VTKFile with a Collection)"},
+      {"<Other><Collection/></Other>", "is not a complete PVD file (no VTKFile with a Collection)"},
+  };
+  for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
+    vsc_pvd *pvd = NULL;
+    vsc_error error = {.text = ""};
+    assert_int_equal(vsc_pvd_open(scratch_text("fault.pvd", cases[c].text), 9, &pvd, &error), VSC_INPUT);
+    if (strstr(error.text, cases[c].said) == NULL) fail_msg("%s", error.text);
+  }
 }
 
 static void missing_is_empty(void **state)
@@ -245,6 +285,8 @@ int main(void)
     cmocka_unit_test(resuming_trims),
     cmocka_unit_test(times_and_names_come_back_exactly),
     cmocka_unit_test(other_programs_files_are_read),
+    cmocka_unit_test(all_of_xml_is_understood),
+    cmocka_unit_test(a_fault_has_its_line),
     cmocka_unit_test(missing_is_empty),
     cmocka_unit_test(broken_files_are_refused),
     cmocka_unit_test(truncated_files_are_refused),

@@ -13,7 +13,7 @@ if(NOT found)
 endif()
 file(WRITE ${WORK}/readme.c "${CMAKE_MATCH_1}")
 get_filename_component(folder ${LIBRARY} DIRECTORY)
-execute_process(COMMAND ${CC} -std=gnu17 -Wall -Wextra -Wno-psabi ${FLAGS} -I${ROOT}/lib -I${ROOT} readme.c -o readme
+execute_process(COMMAND ${CC} -std=gnu17 -Wall -Wextra ${FLAGS} -I${ROOT}/lib -I${ROOT} readme.c -o readme
                         ${LIBRARY} -Wl,-rpath,${folder}
                 WORKING_DIRECTORY ${WORK} RESULT_VARIABLE failed ERROR_VARIABLE said)
 if(failed OR said)

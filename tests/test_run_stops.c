@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Why a run goes back, and why it stops before its end.
 #include "block_scene.h"
+#include "run/run.h"
 
 // A support that jerks viscous tissue into motion: the ledger does not see it balance before steps are shorter.
 // A load that tears it to pieces: what is told, and the last good state is kept.
@@ -29,6 +30,23 @@ static void test_repeated_with_shorter_steps(void **state)
   assert_non_null(strstr(complained, "the energy balance jumped"));
   assert_non_null(strstr(complained, " energy; element "));
   assert_true(strtod(summary("torn", "stretches_repeated_with_shorter_steps"), NULL) == 3);
+}
+
+// What went well in the end leaves no message.
+static void test_repeated_without_a_message(void **state)
+{
+  (void)state;
+  char directory[256];
+  vsc_problem *problem;
+  vsc_run_result result;
+  vsc_error error = {.text = ""};
+  snprintf(directory, sizeof directory, "%s", in_folder("quiet"));
+  assert_int_equal(vsc_problem_load(in_folder("jerk.yaml"), NULL, 0, &problem, &error), VSC_OK);
+  const vsc_run_options options = {.directory = directory};
+  assert_int_equal(vsc_run(problem, &options, &result, &error), VSC_OK);
+  assert_true(result.repeated >= 1);
+  assert_string_equal(error.text, "");
+  vsc_problem_free(problem);
 }
 
 // So viscous that no look is close enough where the support starts and stops: the run goes on, and its balance too.
@@ -173,6 +191,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_repeated_with_shorter_steps),
+      cmocka_unit_test(test_repeated_without_a_message),
       cmocka_unit_test(test_energy_made_by_implicit_steps),
       cmocka_unit_test(test_interrupted),
       cmocka_unit_test(test_interrupted_on_the_way),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // viscera run
+#include <errno.h>
 #include <getopt.h>
 #include <signal.h>
 #include <stdio.h>
@@ -161,11 +162,13 @@ static void interrupt(int number)
 {
   static const char told[] = "\nviscera: stopping; once more to end at once\n";
   static volatile double first;
+  const int before = errno;
   if (interrupted != 0 && seconds() > first + 0.5) signal(number, SIG_DFL), raise(number);
   if (interrupted != 0) return;
   first = seconds();
   interrupted = number;
   (void)!write(STDERR_FILENO, told, sizeof told - 1);
+  errno = before;
 }
 
 static void heed_signals(vsc_run_options *options)

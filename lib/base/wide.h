@@ -7,6 +7,11 @@
 
 #include <stdint.h>
 
+// GCC notes that vectors are passed in other ways than before its version 4.6; none is passed (VSC_INLINE).
+#if defined __GNUC__ && !defined __clang__
+#pragma GCC diagnostic ignored "-Wpsabi"
+#endif
+
 #ifdef VSC_EIGHT_LANES
 #include <immintrin.h>
 enum { VSC_WIDTH = 4, VSC_LANES = 8 };

@@ -328,12 +328,8 @@ static herr_t print_link(hid_t group, const char *name, const H5L_info_t *info, 
   return 0;
 }
 
-static vsc_status print_contents(const char *file, FILE *stream, vsc_error *error)
+static vsc_status print_all(const char *file, FILE *stream, vsc_error *error)
 {
-  FILE *there = fopen(file, "rb");
-  if (there == NULL) return vsc_fail(error, VSC_INPUT, "%s: %s", file, strerror(errno));
-  fclose(there);
-  H5Eset_auto2(H5E_DEFAULT, NULL, NULL);  // the messages are ours to give
   const hid_t handle = H5Fopen(file, H5F_ACC_RDONLY, H5P_DEFAULT);
   if (handle < 0)
     return vsc_fail(error, VSC_INPUT, "%s: this is no HDF5 file, or a damaged one", file);
@@ -343,6 +339,17 @@ static vsc_status print_contents(const char *file, FILE *stream, vsc_error *erro
   H5Fclose(handle);
   if (result < 0) return vsc_fail(error, VSC_INPUT, "%s: the file is damaged", file);
   return VSC_OK;
+}
+
+static vsc_status print_contents(const char *file, FILE *stream, vsc_error *error)
+{
+  FILE *there = fopen(file, "rb");
+  if (there == NULL) return vsc_fail(error, VSC_INPUT, "%s: %s", file, strerror(errno));
+  fclose(there);
+  const hush former = hush_hdf5();
+  const vsc_status status = print_all(file, stream, error);
+  unhush_hdf5(former);
+  return status;
 }
 
 const vsc_hdf5 vsc_hdf5_table = {

@@ -2,6 +2,7 @@
 #include "io/pvd.h"
 
 #include <errno.h>
+#include <expat.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -38,11 +39,12 @@ static char *copy_text(const char *text, size_t length)
   return copy;
 }
 
-// The five characters that XML cannot hold as they are.
+// The characters that XML cannot hold as they are; of spaces in attributes it keeps only plain ones.
 static const struct {
   char plain;
   const char *escaped;
-} ESCAPES[] = {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&apos;"}};
+} ESCAPES[] = {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"},
+              {'\'', "&apos;"}, {'\t', "&#9;"}, {'\n', "&#10;"}, {'\r', "&#13;"}};
 
 enum { ESCAPE_COUNT = sizeof ESCAPES / sizeof ESCAPES[0] };
 
@@ -123,84 +125,82 @@ const char *vsc_pvd_frame(const vsc_pvd *pvd, size_t frame)
   return pvd->frames[frame].file;
 }
 
-static void unescape(char *text)
-{
-  char *to = text;
-  while (*text != '\0') {
-    size_t e = 0;
-    while (e < ESCAPE_COUNT &&
-           strncmp(text, ESCAPES[e].escaped, strlen(ESCAPES[e].escaped)) != 0) e++;
-    *to++ = e < ESCAPE_COUNT ? ESCAPES[e].plain : *text;
-    text += e < ESCAPE_COUNT ? strlen(ESCAPES[e].escaped) : 1;
-  }
-  *to = '\0';
-}
-
-// The value of attribute `name` inside the tag [tag, end), as a copy; NULL when it is not there
-// (*memory stays true) or when memory is short (false).
-static char *copy_attribute(const char *tag, const char *end, const char *name, bool *memory)
-{
-  const size_t length = strlen(name);
-  for (const char *at = tag; at + length + 2 < end; at++) {
-    if ((at[-1] != ' ' && at[-1] != '\t' && at[-1] != '\n' && at[-1] != '\r') ||
-        strncmp(at, name, length) != 0 || at[length] != '=') continue;
-    const char quote = at[length + 1];
-    if (quote != '"' && quote != '\'') continue;
-    const char *value = at + length + 2;
-    const char *close = memchr(value, quote, (size_t)(end - value));
-    if (close == NULL) return NULL;
-    char *copy = copy_text(value, (size_t)(close - value));
-    if (copy == NULL) *memory = false;
-    else unescape(copy);
-    return copy;
-  }
-  return NULL;
-}
-
 static vsc_status fail_damaged(const vsc_pvd *pvd, const char *what, vsc_error *error)
 {
   return vsc_fail(error, VSC_INPUT, "%s: is not a complete PVD file (%s): remove it or start anew",
                   pvd->file, what);
 }
 
-static vsc_status read_frame(vsc_pvd *pvd, const char *tag, const char *end, double keep_until,
-                             vsc_error *error)
+// A file on its way through expat, VTKFile > Collection > DataSet.
+typedef struct reading {
+  vsc_pvd *pvd;
+  double keep_until;
+  XML_Parser parser;
+  int depth;                      // elements that are open
+  bool in_file, in_collection;    // they are those that frames lie in
+  bool has_collection;            // there was one so far
+  vsc_status status;
+  vsc_error *error;
+} reading;
+
+// With the line where that is; expat hands out nothing more.
+static void stop_at(reading *r, const char *what)
 {
-  bool memory = true;
-  char *text = copy_attribute(tag, end, "timestep", &memory);
-  char *file = copy_attribute(tag, end, "file", &memory);
-  char *rest = text;
-  const double time = text != NULL ? strtod(text, &rest) : 0;
-  const bool number = text != NULL && rest != text && *rest == '\0' && isfinite(time);
-  const bool sound = number && file != NULL;
-  vsc_free(text);
-  if (!sound) {
-    vsc_free(file);
-    return memory ? fail_damaged(pvd, "a DataSet without timestep or file", error)
-                  : vsc_fail_memory(error, "the list of frames");
+  char text[120];
+  snprintf(text, sizeof text, "line %lu: %.80s", (unsigned long)XML_GetCurrentLineNumber(r->parser), what);
+  r->status = fail_damaged(r->pvd, text, r->error);
+  XML_StopParser(r->parser, XML_FALSE);
+}
+
+static void read_frame(reading *r, const char **attributes)
+{
+  const char *file = NULL, *text = "";
+  for (; *attributes != NULL; attributes += 2) {
+    if (strcmp(attributes[0], "timestep") == 0) text = attributes[1];
+    if (strcmp(attributes[0], "file") == 0) file = attributes[1];
   }
-  if (time >= keep_until - SAME_TIME) {
-    vsc_free(file);
-    return VSC_OK;
+  char *rest;
+  const double time = strtod(text, &rest);
+  if (rest == text || *rest != '\0' || !isfinite(time) || file == NULL) {
+    stop_at(r, "a DataSet without timestep or file");
+  } else if (time < r->keep_until - SAME_TIME && !append(r->pvd, time, copy_text(file, strlen(file)))) {
+    r->status = vsc_fail_memory(r->error, "the list of frames");
+    XML_StopParser(r->parser, XML_FALSE);
   }
-  return append(pvd, time, file) ? VSC_OK : vsc_fail_memory(error, "the list of frames");
+}
+
+static void XMLCALL open_element(void *context, const char *name, const char **attributes)
+{
+  reading *r = context;
+  const int depth = r->depth++;
+  if (depth == 0) r->in_file = strcmp(name, "VTKFile") == 0;
+  if (depth == 1) r->in_collection = r->in_file && strcmp(name, "Collection") == 0;
+  r->has_collection = r->has_collection || r->in_collection;
+  if (depth == 2 && r->in_collection && strcmp(name, "DataSet") == 0) read_frame(r, attributes);
+}
+
+static void XMLCALL close_element(void *context, const char *name)
+{
+  (void)name;
+  reading *r = context;
+  if (--r->depth == 1) r->in_collection = false;
 }
 
 // Keeps the frames before `keep_until` of the PVD file in `text`.
-static vsc_status read_frames(vsc_pvd *pvd, const char *text, double keep_until, vsc_error *error)
+static vsc_status read_frames(vsc_pvd *pvd, const char *text, size_t size, double keep_until, vsc_error *error)
 {
-  if (strstr(text, "<VTKFile") == NULL || strstr(text, "<Collection") == NULL)
-    return fail_damaged(pvd, "no VTKFile with a Collection", error);
-  if (strstr(text, "</VTKFile>") == NULL) return fail_damaged(pvd, "cut short", error);
-  static const char opening[] = "<DataSet";
-  for (const char *tag = strstr(text, opening); tag != NULL; tag = strstr(tag, opening)) {
-    tag += strlen(opening);
-    const char *end = strchr(tag, '>');
-    if (end == NULL) return fail_damaged(pvd, "cut short", error);
-    const vsc_status status = read_frame(pvd, tag + 1, end, keep_until, error);
-    if (status != VSC_OK) return status;
+  reading r = {.pvd = pvd, .keep_until = keep_until, .parser = XML_ParserCreate(NULL), .error = error};
+  if (r.parser == NULL) return vsc_fail_memory(error, "the list of frames");
+  XML_SetUserData(r.parser, &r);
+  XML_SetElementHandler(r.parser, open_element, close_element);
+  if (XML_Parse(r.parser, text, (int)size, XML_TRUE) != XML_STATUS_OK && r.status == VSC_OK) {
+    const enum XML_Error why = XML_GetErrorCode(r.parser);
+    if (why == XML_ERROR_NO_MEMORY) r.status = vsc_fail_memory(error, "the list of frames");
+    else stop_at(&r, XML_ErrorString(why));
   }
-  return VSC_OK;
+  if (r.status == VSC_OK && !r.has_collection) r.status = fail_damaged(pvd, "no VTKFile with a Collection", error);
+  XML_ParserFree(r.parser);
+  return r.status;
 }
 
 static vsc_status read_stream(vsc_pvd *pvd, FILE *stream, double keep_until, vsc_error *error)
@@ -210,12 +210,12 @@ static vsc_status read_stream(vsc_pvd *pvd, FILE *stream, double keep_until, vsc
   rewind(stream);
   if (size < 0 || size > LONGEST_FILE) return fail_damaged(pvd, "not a regular file", error);
   char *text;
-  if (!VSC_NEW(text, (size_t)size + 1)) return vsc_fail_memory(error, "the list of frames");
+  if (!VSC_NEW(text, (size_t)size)) return vsc_fail_memory(error, "the list of frames");
   vsc_status status;
   if (fread(text, 1, (size_t)size, stream) != (size_t)size)
     status = fail_damaged(pvd, "reading failed", error);
   else
-    status = read_frames(pvd, text, keep_until, error);
+    status = read_frames(pvd, text, (size_t)size, keep_until, error);
   vsc_free(text);
   return status;
 }

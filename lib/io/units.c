@@ -99,21 +99,41 @@ static bool same_dimension(const ut_unit *unit, const ut_unit *own, vsc_quantity
   return same;
 }
 
-// What udunits2 would take although no user means it: "kPa)", "3 4 kPa". A rate may begin with 1/.
-static bool is_plain(const char *unit, vsc_quantity kind)
+// Whether a digit is an exponent's: behind a letter (or a byte of one), another digit, ^ or **, perhaps with a sign.
+static bool is_exponent(const char *unit, const char *digit)
 {
-  if (kind == VSC_RATE && strncmp(unit, "1/", 2) == 0) unit += 2;
-  int open = 0;
-  for (const char *c = unit; *c != '\0' && open >= 0; c++) open += (*c == '(') - (*c == ')');
-  const char first = unit[0];
-  return open == 0 && strchr("0123456789.+-,", first) == NULL;
+  const size_t length = (size_t)(digit - unit);
+  const bool is_signed = length > 0 && (digit[-1] == '-' || digit[-1] == '+');
+  if (length < 1 + (size_t)is_signed) return false;
+  const char *before = digit - 1 - is_signed;
+  if (*before == '*') return before > unit && before[-1] == '*';
+  if (before > unit && strncmp(before - 1, "·", 2) == 0) return false;
+  return isalnum((unsigned char)*before) || (unsigned char)*before > 127 || *before == '^';
 }
 
-typedef enum outcome { CONVERTED, UNKNOWN_UNIT, OTHER_DIMENSION } outcome;
+// What udunits2 would multiply by although no user means it: "3 4 kPa", "20 kPa 3". A rate may begin with 1/.
+static bool has_number(const char *unit, vsc_quantity kind)
+{
+  if (kind == VSC_RATE && strncmp(unit, "1/", 2) == 0) unit += 2;
+  for (const char *c = unit; *c != '\0'; c++)
+    if (isdigit((unsigned char)*c) && !is_exponent(unit, c)) return true;
+  return false;
+}
+
+// What else it would take: "kPa)".
+static bool is_plain(const char *unit)
+{
+  int open = 0;
+  for (const char *c = unit; *c != '\0' && open >= 0; c++) open += (*c == '(') - (*c == ')');
+  return open == 0 && strchr(".+-,", unit[0]) == NULL;
+}
+
+typedef enum outcome { CONVERTED, SECOND_NUMBER, UNKNOWN_UNIT, OTHER_DIMENSION } outcome;
 
 static outcome convert(const char *text, vsc_quantity kind, double *value)
 {
-  if (!is_plain(text, kind)) return UNKNOWN_UNIT;
+  if (has_number(text, kind)) return SECOND_NUMBER;
+  if (!is_plain(text)) return UNKNOWN_UNIT;
   ut_unit *unit = ut_parse(units, text, UT_UTF8);
   if (unit == NULL) return UNKNOWN_UNIT;
   ut_unit *own = ut_parse(units, quantities[kind].unit, UT_ASCII);
@@ -135,6 +155,8 @@ static vsc_status refuse_unit(const char *text, const char *unit, vsc_quantity k
                               vsc_error *error)
 {
   const quantity *q = &quantities[kind];
+  if (why == SECOND_NUMBER)
+    return vsc_fail(error, VSC_INPUT, "\"%s\": a second number; expected %s such as \"%s\"", text, q->noun, q->example);
   size_t count = 0;
   while (count < COMMON_UNITS && q->common[count] != NULL) count++;
   const char *nearest = vsc_nearest(unit, q->common, count);

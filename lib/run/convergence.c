@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What Newton's method did, as DIRECTORY/convergence.csv: one row for each iteration.
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -24,7 +25,15 @@ vsc_status vsc_job_write_convergence(vsc_job *job, vsc_error *error)
   }
   job->converged_rows += (double)newton->row_count;
   newton->row_count = 0;
-  if (fclose(file) != 0)
+  const bool failed = ferror(file) != 0;
+  if (fclose(file) != 0 || failed)
     return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", path, strerror(errno));
   return VSC_OK;
+}
+
+vsc_status vsc_job_trim_convergence(const vsc_job *job, vsc_error *error)
+{
+  char path[VSC_PATH];
+  vsc_job_path(job, "convergence.csv", path);
+  return vsc_watch_trim(path, job->state->time, HUGE_VAL, error);  // rows may lie any way apart
 }

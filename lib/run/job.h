@@ -60,12 +60,15 @@ vsc_status vsc_job_write_unloaded(vsc_job *job, vsc_error *error);
 // method has no Newton.
 vsc_status vsc_job_write_convergence(vsc_job *job, vsc_error *error);
 
+// Takes from the rows of that file, left by the run that is resumed, those after the state's time.
+vsc_status vsc_job_trim_convergence(const vsc_job *job, vsc_error *error);
+
 // Writes (behind all frames) or reads DIRECTORY/checkpoint.h5.
 vsc_status vsc_job_save(vsc_job *job, vsc_error *error);
 vsc_status vsc_job_load(vsc_job *job, vsc_error *error);
 
-// Memory for the last good state; then: remembers the state and all that belongs to a checkpoint of
-// it, or goes back to what was remembered last.
+// Memory for the last good state, which is the present one (after vsc_solve_start, with a watch); then: remembers all
+// that a checkpoint would hold, or goes back to what was remembered last.
 vsc_status vsc_job_make_good(vsc_job *job, vsc_error *error);
 void vsc_job_keep_good(vsc_job *job);
 void vsc_job_go_back(vsc_job *job);

@@ -143,6 +143,13 @@ vsc_status vsc_job_save(vsc_job *job, vsc_error *error)
   return shown == VSC_OK ? status : shown;
 }
 
+// The factor of implicit steps is to be made again of its matrix, which has changed.
+static void forget_factor(vsc_job *job)
+{
+  if (job->problem->model->solve.kind == VSC_SOLVE_IMPLICIT)
+    vsc_linear_resume(vsc_solve_newton(job->problem->model, job->state)->linear);
+}
+
 vsc_status vsc_job_load(vsc_job *job, vsc_error *error)
 {
   double scalars[SCALARS];
@@ -157,78 +164,45 @@ vsc_status vsc_job_load(vsc_job *job, vsc_error *error)
   const vsc_status status =
       vsc_checkpoint_read(path, job->problem->model->hash, BLOCKS, blocks, error);
   if (status == VSC_OK) put_scalars(job, scalars);
-  if (status == VSC_OK && job->problem->model->solve.kind == VSC_SOLVE_IMPLICIT)
-    vsc_linear_resume(vsc_solve_newton(job->problem->model, job->state)->linear);
+  if (status == VSC_OK) forget_factor(job);
   return status;
 }
 
-// The four arrays of a state that a checkpoint holds.
-static void list_arrays(vsc_job *job, double *arrays[4])
+// Copies all that a checkpoint holds to job->good, or back from there.
+static void copy_good(vsc_job *job, bool back)
 {
-  vsc_state *state = job->state;
-  double *const list[4] = {state->x, state->v, state->a, state->limit.mode};
-  memcpy(arrays, list, sizeof list);
-}
-
-// Numbers of the sums of obstacles and of moving supports, of what nodes remember of contact and of the
-// step before, of pressures that keep volumes, and of the branches of Prony series.
-static size_t sums_size(const vsc_job *job)
-{
-  const vsc_model *model = job->problem->model;
-  return (model->obstacle_count * sizeof *job->state->contact +
-          model->moved_count * sizeof *job->state->moved) / sizeof(double) +
-         12 * contact_nodes(job) + model->kept.count + vsc_prony_size(model) + 1 +
-         4 * (former_nodes(job, false) + former_nodes(job, true) + past_nodes(job)) + vsc_state_contacts(model);
-}
-
-// Copies these to `memory`, or back from it.
-static void copy_sums(vsc_job *job, double *memory, bool back)
-{
-  vsc_state *state = job->state;
-  const vsc_model *model = job->problem->model;
-  const size_t nodes = 4 * contact_nodes(job);
-  enum { ARRAYS = 12 };
-  double *const arrays[ARRAYS] = {state->former,   state->pending,           state->contact_normal,
-                                  (double *)state->contact, (double *)state->moved,
-                                  state->prony,    &state->former_step,      state->former_x,
-                                  state->former_v, state->past_a, state->kept_pressure, state->touch};
-  const size_t counts[ARRAYS] = {nodes, nodes, nodes,
-                            model->obstacle_count * sizeof *state->contact / sizeof(double),
-                            model->moved_count * sizeof *state->moved / sizeof(double),
-                            vsc_prony_size(model), 1, 4 * former_nodes(job, false),
-                            4 * former_nodes(job, true), 4 * past_nodes(job), model->kept.count,
-                            vsc_state_contacts(model)};
-  for (int k = 0; k < ARRAYS; memory += counts[k++])
-    memcpy(back ? arrays[k] : memory, back ? memory : arrays[k], counts[k] * sizeof *memory);
+  double scalars[SCALARS], *memory = job->good;
+  vsc_block blocks[BLOCKS];
+  take_scalars(job, scalars);
+  list_blocks(job, scalars, blocks);
+  for (int k = 0; k < BLOCKS; k++) {
+    const size_t count = blocks[k].rows * blocks[k].columns;
+    if (count > 0) memcpy(back ? blocks[k].values : memory, back ? memory : blocks[k].values, count * sizeof *memory);
+    memory += count;
+  }
+  if (!back) return;
+  put_scalars(job, scalars);
+  forget_factor(job);
 }
 
 vsc_status vsc_job_make_good(vsc_job *job, vsc_error *error)
 {
-  if (VSC_NEW(job->good, SCALARS + 16 * job->problem->model->node_count + sums_size(job)))
-    return VSC_OK;
-  return vsc_fail_memory(error, "the last good state");
+  double scalars[SCALARS];
+  vsc_block blocks[BLOCKS];
+  size_t numbers = 0;
+  list_blocks(job, scalars, blocks);
+  for (int k = 0; k < BLOCKS; k++) numbers += blocks[k].rows * blocks[k].columns;
+  if (!VSC_NEW(job->good, numbers)) return vsc_fail_memory(error, "the last good state");
+  vsc_job_keep_good(job);
+  return VSC_OK;
 }
 
 void vsc_job_keep_good(vsc_job *job)
 {
-  const size_t count = 4 * job->problem->model->node_count;
-  double *arrays[4];
-  list_arrays(job, arrays);
-  take_scalars(job, job->good);
-  for (size_t k = 0; k < 4; k++)
-    memcpy(job->good + SCALARS + k * count, arrays[k], count * sizeof(double));
-  copy_sums(job, job->good + SCALARS + 4 * count, false);
+  copy_good(job, false);
 }
 
 void vsc_job_go_back(vsc_job *job)
 {
-  const size_t count = 4 * job->problem->model->node_count;
-  const double rows = job->watch->rows;
-  double *arrays[4];
-  list_arrays(job, arrays);
-  put_scalars(job, job->good);
-  job->watch->rows = rows;  // what is written stays written
-  for (size_t k = 0; k < 4; k++)
-    memcpy(arrays[k], job->good + SCALARS + k * count, count * sizeof(double));
-  copy_sums(job, job->good + SCALARS + 4 * count, true);
+  copy_good(job, true);
 }

@@ -92,20 +92,26 @@ static vsc_status check_frames(const vsc_job *job, vsc_error *error)
   return VSC_OK;
 }
 
-// The series with the frames up to the checkpoint's time, or none; the others' files are removed.
+// The series with the frames up to the checkpoint's time, or none. Nothing is written yet.
+static vsc_status read_series(vsc_job *job, vsc_error *error)
+{
+  char series[VSC_PATH];
+  vsc_job_path(job, ".pvd", series);
+  // a frame at the checkpoint's own time stays
+  const double keep = job->options->resume ? 1e-3 * job->state->time + 1e-6 : -1;
+  vsc_status status = check_series(job, series, error);
+  if (status == VSC_OK) status = vsc_pvd_open(series, keep, &job->pvd, error);
+  return status == VSC_OK ? check_frames(job, error) : status;
+}
+
+// Writes the series; the files of other frames are removed.
 static vsc_status open_series(vsc_job *job, vsc_error *error)
 {
   char series[VSC_PATH];
   vsc_pvd *old = NULL;
   vsc_job_path(job, ".pvd", series);
-  vsc_status status = check_series(job, series, error);
-  if (status != VSC_OK) return status;
   if (vsc_pvd_open(series, HUGE_VAL, &old, NULL) != VSC_OK) old = NULL;
-  // a frame at the checkpoint's own time stays
-  const double keep = job->options->resume ? 1e-3 * job->state->time + 1e-6 : -1;
-  status = vsc_pvd_open(series, keep, &job->pvd, error);
-  if (status == VSC_OK) status = check_frames(job, error);
-  if (status == VSC_OK) status = vsc_pvd_write(job->pvd, error);
+  const vsc_status status = vsc_pvd_write(job->pvd, error);
   if (status == VSC_OK && old != NULL) remove_frames(job, old, vsc_pvd_count(job->pvd));
   vsc_pvd_free(old);
   if (status != VSC_OK) return status;
@@ -140,7 +146,7 @@ static vsc_status open_watch(vsc_job *job, double keep_until, vsc_error *error)
 }
 
 // The time of the checkpoint must be known before the signals are opened, which trims them: so the
-// state is read first with a watch on no file.
+// state is read first with a watch on no file. No file is touched until all have been found sound.
 static vsc_status resume(vsc_job *job, vsc_error *error)
 {
   char path[VSC_PATH];
@@ -149,10 +155,12 @@ static vsc_status resume(vsc_job *job, vsc_error *error)
   if (status == VSC_OK) status = vsc_job_load(job, error);
   if (status == VSC_OK) vsc_watch_resume(job->problem, job->state, job->watch);
   if (status == VSC_OK) status = vsc_watch_continues(job->watch, path, error);
+  if (status == VSC_OK) status = read_series(job, error);
   if (status != VSC_OK) return status;
   vsc_watch_free(job->watch);
   job->watch = NULL;
   status = open_watch(job, job->state->time, error);
+  if (status == VSC_OK) status = vsc_job_trim_convergence(job, error);
   if (status == VSC_OK) status = open_files(job, error);
   if (status == VSC_OK) status = vsc_job_load(job, error);
   if (status == VSC_OK) vsc_watch_resume(job->problem, job->state, job->watch);
@@ -211,19 +219,17 @@ static vsc_status start(vsc_job *job, vsc_error *error)
   if (status == VSC_OK) status = vsc_problem_start(problem, &job->state, error);
   if (status == VSC_OK && problem->model->cycle > 0)
     status = vsc_cycle_begin(problem->model, job->state, &job->cycle, error);
-  if (status == VSC_OK) status = vsc_job_make_good(job, error);
   if (status != VSC_OK) return status;
   if (job->options->resume) {
-    if (problem->model->solve.kind != VSC_SOLVE_EXPLICIT)
-      status = vsc_in_scene(problem->scene->file,
-                            vsc_solve_start(problem->model, job->state, error), error);
+    status = vsc_in_scene(problem->scene->file, vsc_solve_resume(problem->model, job->state, error), error);
     if (status == VSC_OK) status = resume(job, error);
-    if (status == VSC_OK) vsc_job_keep_good(job);
-    return status;
+    return status == VSC_OK ? vsc_job_make_good(job, error) : status;
   }
   status = vsc_in_scene(problem->scene->file, vsc_solve_start(problem->model, job->state, error), error);
+  if (status == VSC_OK) status = read_series(job, error);
   if (status == VSC_OK) status = open_files(job, error);
   if (status == VSC_OK) status = open_watch(job, -1, error);
+  if (status == VSC_OK) status = vsc_job_make_good(job, error);
   if (status == VSC_OK) status = observe(job, error);
   if (status == VSC_OK) status = write_row(job, error);
   if (status == VSC_OK) status = write_frame(job, error);
@@ -302,7 +308,7 @@ static vsc_status go_to_look(vsc_job *job, double time, vsc_error *error)
   return status;
 }
 
-// Takes the look into the cycle, and ends that where it ends.
+// Takes the look into the cycle, and ends that where it ends: then this is the last good state.
 static void watch_cycle(vsc_job *job, double before)
 {
   const vsc_model *model = job->problem->model;
@@ -310,6 +316,7 @@ static void watch_cycle(vsc_job *job, double before)
   vsc_cycle_look(model, job->state, &job->cycle);
   if (is_event(before, job->state->time, model->cycle, HUGE_VAL))
     vsc_cycle_end(model, job->state, &job->cycle);
+  vsc_job_keep_good(job);
 }
 
 // Whether the last cycle has repeated the one before.
@@ -358,6 +365,7 @@ static vsc_status advance(vsc_job *job, double stop, vsc_error *error)
   const double end = job->problem->model->end_time;
   vsc_state *state = job->state;
   vsc_status status = VSC_OK;
+  vsc_error reason;  // of ways that are gone again, too
   // the ledger wants its looks, however rare the rows are
   const double look = look_of(job->problem->model, state, output->signal_interval);
   while (state->time < stop * (1 - SAME_TIME) && status == VSC_OK && !repeats(job) && !is_interrupted(job)) {
@@ -366,11 +374,12 @@ static vsc_status advance(vsc_job *job, double stop, vsc_error *error)
     next = fmin(next, next_event(state->time, output->frame_interval, end));
     next = fmin(next, next_event(state->time, output->checkpoint_interval, end));
     next = fmin(next, next_event(state->time, job->problem->model->cycle, end));
-    status = go_to_look(job, next, error);
+    status = go_to_look(job, next, &reason);
     if (status != VSC_OK && is_interrupted(job)) {  // the method has given up on its way
       vsc_job_go_back(job);
       return VSC_OK;
     }
+    if (status != VSC_OK && error != NULL) *error = reason;
     if (status == VSC_OK) watch_cycle(job, before);
     const bool last = repeats(job);
     if (status == VSC_OK && (last || is_event(before, state->time, output->signal_interval, end)))
@@ -422,7 +431,7 @@ static void fill_result(const vsc_job *job, vsc_run_result *result)
 // Leaves the last good state and the reason; what fails now on top of that is not told.
 static void save_failure(vsc_job *job, vsc_run_result *result, const vsc_error *error)
 {
-  if (job->writer == NULL || job->watch == NULL || job->watch->rows == 0) return;
+  if (job->writer == NULL || job->good == NULL || job->watch->rows == 0) return;
   const double repeated = job->repeated;
   vsc_job_go_back(job);
   job->repeated = repeated;

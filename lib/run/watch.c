@@ -228,6 +228,7 @@ static vsc_status open_file(const char *file, double keep_until, double interval
 {
   const vsc_status status = keep_until >= 0 ? vsc_watch_trim(file, keep_until, interval, error) : VSC_OK;
   if (status != VSC_OK) return status;
+  snprintf(watch->path, sizeof watch->path, "%s", file);
   watch->file = fopen(file, keep_until >= 0 ? "a" : "w");
   if (watch->file == NULL)
     return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", file, strerror(errno));
@@ -392,8 +393,8 @@ static vsc_status write_row(vsc_watch *watch, vsc_error *error)
   for (size_t k = 0; k < watch->signal_count; k++)
     fprintf(watch->file, k ? ",%.12g" : "%.12g", watch->values[k]);
   fputc('\n', watch->file);
-  if (fflush(watch->file) != 0)
-    return vsc_fail(error, VSC_SYSTEM, "signals.csv: cannot be written: %s", strerror(errno));
+  if (fflush(watch->file) != 0 || ferror(watch->file) != 0)
+    return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", watch->path, strerror(errno));
   return VSC_OK;
 }
 

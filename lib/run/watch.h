@@ -19,6 +19,7 @@ enum {
 
 typedef struct vsc_watch {
   FILE *file;          // signals.csv, open for appending
+  char path[VSC_PATH]; // its name
   vsc_ledger *ledger;  // owned
   vsc_totals totals, former;  // of the last look, and of the one before
   size_t cavity_count;

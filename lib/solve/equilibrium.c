@@ -126,14 +126,12 @@ vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double u
     state->scratch.load = load0 + next * (1 - load0);
     int iterations = 0;
     vsc_kept_take(newton->kept, state);
-    char node[VSC_NODE_TEXT];
     vsc_status status =
         guess(model, state, (next - done) * way, s.time, x)
             ? settle(newton, &s, x, &iterations, error)
             : vsc_fail(error, VSC_NUMERICAL,
-                       "at %.6g ms no equilibrium was found: the support of %s, moves so far that elements turn "
-                       "inside out, element %u first; take a smaller motion", s.time,
-                       vsc_name_node(model, model->moved[0].nodes[0], node, sizeof node), smallest_at(model, x));
+                       "at %.6g ms no equilibrium was found: supports move so far that elements turn inside out, "
+                       "element %u most; take a smaller motion", s.time, smallest_at(model, x));
     if (status == VSC_OK) {
       memcpy(state->former_x, state->x, 4 * model->node_count * sizeof *x);
       memcpy(state->x, x, 4 * model->node_count * sizeof *x);

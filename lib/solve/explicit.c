@@ -179,6 +179,8 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
 {
   if (model->solve.kind != VSC_SOLVE_EXPLICIT)
     return vsc_fail(error, VSC_INPUT, "vsc_start: the model is not to be stepped explicitly: call vsc_solve_start");
+  const vsc_status ready = vsc_keep_volume_ready(model, error);
+  if (ready != VSC_OK) return ready;
   vsc_supports_place(model, state->time, 1, state->x);
   const double busiest = busiest_time(model, state);
   vsc_limit_refresh(model, state, busiest, vsc_limit_enough(model));

@@ -7,7 +7,7 @@
 
 // Prepares a new state for stepping: the first estimate of the stable step, at rest and at full
 // activation (the smaller counts), and the first acceleration. Refuses (VSC_INPUT) a user's step
-// above the stable one, with both numbers, unless the model forces it.
+// above the stable one, with both numbers, unless the model forces it. Where volumes are kept, vsc_keep_volume_ready.
 vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error);
 
 // `count` (at least 1) steps of length dt (ms), each

@@ -277,6 +277,12 @@ static double find_defects(const vsc_model *model, const vsc_state *state, keepe
   return isfinite(most) ? most : HUGE_VAL;
 }
 
+vsc_status vsc_keep_volume_ready(const vsc_model *model, vsc_error *error)
+{
+  const vsc_cholmod *cholmod;
+  return model->kept.count > 0 ? vsc_cholmod_load(&cholmod, error) : VSC_OK;
+}
+
 vsc_status vsc_keep_volume(const vsc_model *model, vsc_state *state, double dt, bool first,
                            vsc_error *error)
 {

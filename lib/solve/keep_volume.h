@@ -10,6 +10,10 @@
 // 100 times as much is accepted.
 #define VSC_KEPT_TOLERANCE 1e-12
 
+// Loads CHOLMOD where volumes are kept, so that no step has to: that changes the environment for a moment
+// (solve/cholmod.h), which no other thread may look at then. VSC_SYSTEM when it is missing.
+vsc_status vsc_keep_volume_ready(const vsc_model *model, vsc_error *error);
+
 // To be called when the positions have drifted in a step of dt (ms), after contact: finds multipliers
 // lambda so that with the gradients g_k of the volumes at the step's start, x_0 = x - dt v,
 //   x <- x + sum_k lambda_k M^-1 g_k(x_0),  v <- v + the same / dt,  v_k(x) = V_k for all k,

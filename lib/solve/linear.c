@@ -229,7 +229,9 @@ static vsc_status make_factor(vsc_linear *linear, double *values, vsc_error *err
   const bool done = linear->cholmod->factorize_p(&linear->view, shift, NULL, 0, linear->factor, common);
   if (!done && common->status == CHOLMOD_OUT_OF_MEMORY) return fail_size(linear, error);
   linear->made = done && common->status == CHOLMOD_OK;
-  return linear->made ? VSC_OK : vsc_fail(error, VSC_NUMERICAL, "the tangent is not positive definite");
+  return linear->made ? VSC_OK
+                      : vsc_fail(error, VSC_NUMERICAL,
+                                 "the tangent has lost its stiffness (buckling, or too large an increment)");
 }
 
 // The factor of the tangent's preconditioner; as much is added to the diagonal as it takes.
@@ -294,16 +296,19 @@ static void apply_blocks(const vsc_linear *linear)
   }
 }
 
-static void apply_factor(vsc_linear *linear)
+// False when memory is short.
+static bool apply_factor(vsc_linear *linear)
 {
   double *right = linear->right->x;
   for (size_t n = 0; n < linear->model->node_count; n++)
     memcpy(right + 3 * n, linear->r + 4 * n, 3 * sizeof *right);
-  linear->cholmod->solve2(CHOLMOD_A, linear->factor, linear->right, NULL, &linear->solution, NULL, &linear->y,
-                 &linear->e, &linear->common);
+  if (!linear->cholmod->solve2(CHOLMOD_A, linear->factor, linear->right, NULL, &linear->solution, NULL, &linear->y,
+                               &linear->e, &linear->common))
+    return false;
   const double *solution = linear->solution->x;
   for (size_t n = 0; n < linear->model->node_count; n++)
     memcpy(linear->z + 4 * n, solution + 3 * n, 3 * sizeof *solution);
+  return true;
 }
 
 // ---- conjugate gradients
@@ -316,7 +321,7 @@ static double product(const vsc_linear *linear, const double *a, const double *b
   return sum;
 }
 
-typedef enum outcome { CONVERGED, SLOW, NEGATIVE } outcome;
+typedef enum outcome { CONVERGED, SLOW, NEGATIVE, NO_MEMORY } outcome;
 
 // Up to `most` iterations from d = 0. With negative curvature at once d is the first direction.
 static outcome iterate(vsc_linear *linear, const vsc_tangent *tangent, const double *free,
@@ -330,10 +335,10 @@ static outcome iterate(vsc_linear *linear, const vsc_tangent *tangent, const dou
   const double goal = tolerance * tolerance * product(linear, r, r);
   double before = 0;
   for (double k = 0; k < most; k++) {
-    if (linear->past.factorized != 0)
-      apply_factor(linear);
-    else
+    if (linear->past.factorized == 0)
       apply_blocks(linear);
+    else if (!apply_factor(linear))
+      return NO_MEMORY;
     const double now = product(linear, r, z);
     const double beta = k > 0 ? now / before : 0;
     for (size_t i = 0; i < count; i++) p[i] = (free[i] == 0 ? 0 : z[i]) + beta * p[i];
@@ -413,7 +418,9 @@ vsc_status vsc_linear_solve(vsc_linear *linear, vsc_tangent *tangent, const doub
   }
   if (status != VSC_OK) return status;
   const double before = linear->counts.iterations;
-  *indefinite = iterate(linear, tangent, free, b, tolerance, MOST_ITERATIONS, d) == NEGATIVE;
+  const outcome end = iterate(linear, tangent, free, b, tolerance, MOST_ITERATIONS, d);
+  if (end == NO_MEMORY) return vsc_fail_memory(error, "the linear solver");
+  *indefinite = end == NEGATIVE;
   linear->past.rate = (linear->counts.iterations - before) / -log10(tolerance);
   return VSC_OK;
 }

@@ -158,7 +158,7 @@ static void write_row(vsc_newton *newton, const vsc_newton_row *row)
 {
   if (newton->row_count == newton->row_room) {
     const size_t room = 2 * newton->row_room + 64;
-    // a table that finds no memory stays shorter: nothing depends on it
+    // a table that finds no memory lacks this row and goes on: it is only looked at
     if (!vsc_grow((void **)&newton->rows, newton->row_room, room, sizeof *newton->rows)) return;
     newton->row_room = room;
   }
@@ -236,11 +236,25 @@ static double look(vsc_newton *newton, const vsc_balance *balance, const double 
 static double start(vsc_newton *newton, const vsc_balance *balance, double *x)
 {
   const double norm = look(newton, balance, x, NULL);
-  if (balance->stay == NULL || !(norm > FAR * newton->scale)) return norm;
+  if (balance->stay == NULL || norm <= FAR * newton->scale) return norm;
   balance->stay(balance->context, newton->before);
-  if (look(newton, balance, newton->before, NULL) < norm)
+  if (!(look(newton, balance, newton->before, NULL) >= norm))
     memcpy(x, newton->before, 4 * newton->model->node_count * sizeof *x);
   return look(newton, balance, x, NULL);
+}
+
+// A position is no longer finite, or else a force.
+static vsc_status fail_infinite(const vsc_newton *newton, const double *x, double time, vsc_error *error)
+{
+  const vsc_model *model = newton->model;
+  size_t node = vsc_largest_node(model, x);
+  const bool lost = !isfinite(x[4 * node] + x[4 * node + 1] + x[4 * node + 2]);
+  if (!lost) node = vsc_largest_node(model, newton->r);
+  char name[VSC_NODE_TEXT];
+  return vsc_fail(error, VSC_NUMERICAL,
+                  "at %.6g ms no equilibrium was found: the %s %s, is no longer a finite number; take a smaller load or a "
+                  "better mesh there, %s", time, lost ? "position of" : "force on",
+                  vsc_name_node(model, node, name, sizeof name), other_ways(model));
 }
 
 static vsc_status solve(vsc_newton *newton, const vsc_balance *balance, double time, double load, double *x,
@@ -248,7 +262,8 @@ static vsc_status solve(vsc_newton *newton, const vsc_balance *balance, double t
 {
   const vsc_model *model = newton->model;
   const double tolerance = model->solve.tolerance;
-  double first = 0, before = 0, forcing = 1, off = 0;
+  double first = 0, before = 0, forcing = 1, off = 0, relative = 0;
+  bool finite = true;
   newton->solutions++;
   newton->indefinite = false;
   for (int k = 0; k <= VSC_MOST_NEWTON; k++) {
@@ -259,16 +274,17 @@ static vsc_status solve(vsc_newton *newton, const vsc_balance *balance, double t
     // without loads at rest, a support that moves or a volume that is off is all that is at work
     if (newton->scale == 0) newton->scale = whole_norm(model, newton->r);
     const vsc_linear_counts counts = vsc_linear_counted(newton->linear);
-    const double relative = newton->scale > 0 ? norm / newton->scale : 0;
+    finite = isfinite(norm) && isfinite(newton->scale);
+    relative = newton->scale == 0 ? 0 : norm / newton->scale;
     vsc_newton_row row = {time, load, k, relative, 0, 0};
     *iterations = k;
     const bool balanced = relative <= tolerance || norm <= newton->floor || (k > 0 && stands_still(newton, norm));
-    if (balanced && off <= VSC_KEPT_BALANCE) {
+    if (finite && balanced && off <= VSC_KEPT_BALANCE) {
       write_row(newton, &row);
       newton->scale = fmax(newton->scale, whole_norm(model, newton->r));
       return VSC_OK;
     }
-    if (!isfinite(norm) || norm > DIVERGED * fmax(first, tolerance * newton->scale) || k == VSC_MOST_NEWTON) {
+    if (!finite || norm > DIVERGED * fmax(first, tolerance * newton->scale) || k == VSC_MOST_NEWTON) {
       write_row(newton, &row);
       break;
     }
@@ -279,8 +295,9 @@ static vsc_status solve(vsc_newton *newton, const vsc_balance *balance, double t
     balance->assemble(balance->context, x, k > 0 ? newton->before : NULL, newton->tangent);
     vsc_touch_tangent(newton->touch, x, newton->tangent);
     memcpy(newton->before, x, 4 * model->node_count * sizeof *x);
+    vsc_error reason;
     const vsc_status status = vsc_kept_solve(newton->kept, newton->linear, newton->tangent, model->inverse_mass, x,
-                                             newton->r, forcing, newton->d, &newton->indefinite, error);
+                                             newton->r, forcing, newton->d, &newton->indefinite, &reason);
     newton->floor = rounding_of(newton);
     const vsc_linear_counts after = vsc_linear_counted(newton->linear);
     row.linear = after.iterations - counts.iterations;
@@ -289,10 +306,8 @@ static vsc_status solve(vsc_newton *newton, const vsc_balance *balance, double t
     newton->iterations++;
     if (status != VSC_OK) {
       newton->failures++;
-      return status == VSC_NUMERICAL
-                 ? fail(newton, error, time, "the tangent has lost its stiffness (buckling, or too "
-                                            "large an increment)")
-                 : status;
+      return status == VSC_NUMERICAL ? fail(newton, error, time, reason.text)
+                                     : vsc_fail(error, status, "%s", reason.text);
     }
     char why[WHY];
     if (!step(newton, x, why)) {
@@ -301,11 +316,11 @@ static vsc_status solve(vsc_newton *newton, const vsc_balance *balance, double t
     }
   }
   newton->failures++;
+  if (!finite) return fail_infinite(newton, x, time, error);
   char why[WHY];
-  const double now = newton->rows[newton->row_count - 1].residual;
-  snprintf(why, WHY, "the residual is %.2g of the forces after %d iterations, not below %.2g", now, *iterations,
+  snprintf(why, WHY, "the residual is %.2g of the forces after %d iterations, not below %.2g", relative, *iterations,
            tolerance);
-  if (now <= tolerance) snprintf(why, sizeof why, "a kept volume is off by %.2g of itself", off);
+  if (relative <= tolerance) snprintf(why, sizeof why, "a kept volume is off by %.2g of itself", off);
   return fail(newton, error, time, why);
 }
 

@@ -71,7 +71,8 @@ void vsc_newton_scale_by_loads(vsc_newton *newton, const double *x, double time)
 
 // Solves from x (node_count x 4), which becomes the solution, to |r| <= tolerance x the scale of
 // forces and kept volumes to VSC_KEPT_BALANCE; newton->kept has their pressures, before and after. `time` and
-// `load` go into the rows. VSC_NUMERICAL, with plain words why, when it does not converge; x is then undefined.
+// `load` go into the rows. VSC_NUMERICAL, with plain words why, when it does not converge or numbers are
+// no longer finite; x is then undefined.
 // With obstacles, for which vsc_touch_begin was called, it is solved with their forces again and again, until
 // multipliers have settled; iterations are those of the first time.
 vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, double time, double load,

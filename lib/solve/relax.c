@@ -20,6 +20,7 @@ typedef struct relaxer {
   vsc_model model;
   double *mass, *inverse_mass;
   double *before;  // forces of the step before
+  double *good;    // positions of the last equilibrium, or of the start
   double floor;    // rounding alone in |r|, mN
 } relaxer;
 
@@ -29,6 +30,7 @@ static void release(void *solver)
   vsc_free(r->mass);
   vsc_free(r->inverse_mass);
   vsc_free(r->before);
+  vsc_free(r->good);
   vsc_free(r);
 }
 
@@ -37,7 +39,7 @@ vsc_status vsc_relax_start(const vsc_model *model, vsc_state *state, vsc_error *
   relaxer *r;
   if (!VSC_NEW(r, 1)) return vsc_fail_memory(error, "relaxation");
   if (!VSC_NEW(r->mass, model->node_count) || !VSC_NEW(r->inverse_mass, 4 * model->node_count) ||
-      !VSC_NEW(r->before, 4 * model->node_count)) {
+      !VSC_NEW(r->before, 4 * model->node_count) || !VSC_NEW(r->good, 4 * model->node_count)) {
     release(r);
     return vsc_fail_memory(error, "relaxation");
   }
@@ -97,14 +99,26 @@ static void step(const relaxer *r, vsc_state *state, double time, double h, doub
   *damping = moving > 0 ? 2 * sqrt(fmax(stiff, 0) / (h * moving)) : 0;
 }
 
-vsc_status vsc_relax_to(const vsc_model *model, vsc_state *state, double until, vsc_error *error)
+// Something is no longer finite: a position, or else a force.
+static vsc_status fail_infinite(const vsc_model *model, const vsc_state *state, double time, double steps, vsc_error *error)
+{
+  const size_t bad = vsc_state_find_bad(model, state);
+  const bool lost = bad < model->node_count;
+  char node[VSC_NODE_TEXT];
+  return vsc_fail(error, VSC_NUMERICAL,
+                  "at %.6g ms no equilibrium was found: in step %.0f of relaxation the %s %s, is no longer a finite "
+                  "number; take a smaller load or a better mesh there, or solver.method: newton",
+                  time, steps, lost ? "position of" : "force on",
+                  vsc_name_node(model, lost ? bad : vsc_largest_node(model, state->force), node, sizeof node));
+}
+
+// From the last equilibrium to the one at `until`; what moves stays so after a failure.
+static vsc_status relax(const vsc_model *model, vsc_state *state, double until, vsc_error *error)
 {
   relaxer *r = state->solver;
   const ramp loads = {state->time, until - state->time, state->steps > 0 || state->loaded ? 1 : 0};
   const double tolerance = model->solve.tolerance;
   double scale = 0, damping = 0;
-  memset(state->v, 0, 4 * model->node_count * sizeof *state->v);
-  state->limit.step = 0;
   for (double k = 0; k < MOST_STEPS; k++) {
     if (vsc_is_set(state->interrupted)) return vsc_fail(error, VSC_SYSTEM, "interrupted");
     const double time = time_at(&loads, k, state);
@@ -116,14 +130,8 @@ vsc_status vsc_relax_to(const vsc_model *model, vsc_state *state, double until, 
     step(r, state, time, state->limit.step, &damping);
     scale = fmax(scale, square(model, state->force, true));
     const double rest = square(model, state->force, false);
-    if (!isfinite(rest)) break;
-    if (k < RAMP_STEPS || rest > fmax(tolerance * tolerance * scale, r->floor * r->floor)) continue;
-    memset(state->v, 0, 4 * model->node_count * sizeof *state->v);
-    state->time = until;
-    state->steps++;
-    if (model->branch_count > 0) vsc_prony_step(model, state, INFINITY);
-    vsc_moving_reckon(model, state, state->force, 1, loads.way);
-    return VSC_OK;
+    if (!isfinite(rest)) return fail_infinite(model, state, until, k + 1, error);
+    if (k >= RAMP_STEPS && rest <= fmax(tolerance * tolerance * scale, r->floor * r->floor)) return VSC_OK;
   }
   char node[VSC_NODE_TEXT];
   return vsc_fail(error, VSC_NUMERICAL,
@@ -131,4 +139,27 @@ vsc_status vsc_relax_to(const vsc_model *model, vsc_state *state, double until, 
                   "%s; use solver.method: newton, or a larger solver.tolerance",
                   until, MOST_STEPS,
                   vsc_name_node(model, vsc_largest_node(model, state->v), node, sizeof node));
+}
+
+vsc_status vsc_relax_to(const vsc_model *model, vsc_state *state, double until, vsc_error *error)
+{
+  const relaxer *r = state->solver;
+  const size_t bytes = 4 * model->node_count * sizeof *state->x;
+  const double load = state->scratch.load, way = until - state->time;
+  memcpy(r->good, state->x, bytes);
+  memset(state->v, 0, bytes);
+  state->limit.step = 0;
+  const vsc_status status = relax(model, state, until, error);
+  memset(state->v, 0, bytes);
+  if (status != VSC_OK) {
+    memcpy(state->x, r->good, bytes);
+    memset(state->limit.mode, 0, bytes);  // it may be no numbers any more
+    state->scratch.load = load;
+    return status;
+  }
+  state->time = until;
+  state->steps++;
+  if (model->branch_count > 0) vsc_prony_step(model, state, INFINITY);
+  vsc_moving_reckon(model, state, state->force, 1, way);
+  return VSC_OK;
 }

@@ -15,7 +15,7 @@ vsc_status vsc_relax_start(const vsc_model *model, vsc_state *state, vsc_error *
 //   omega^2 = v . (f_before - f) / (h v . m v)   (Rayleigh's quotient of what still moves)
 // with masses that make all nodes about equally fast and the step h that is stable for them. Loads and
 // activity go from their values at state->time to those at `until` within the first steps. VSC_NUMERICAL
-// when 200 000 steps are not enough or the body comes apart.
+// when 200 000 steps are not enough or numbers are no longer finite; positions are then those of the last equilibrium.
 vsc_status vsc_relax_to(const vsc_model *model, vsc_state *state, double until, vsc_error *error);
 
 #endif

@@ -4,6 +4,7 @@
 #include "solve/equilibrium.h"
 #include "solve/explicit.h"
 #include "solve/implicit.h"
+#include "solve/keep_volume.h"
 #include "solve/relax.h"
 
 static bool relaxes(const vsc_model *model)
@@ -17,6 +18,12 @@ vsc_status vsc_solve_start(const vsc_model *model, vsc_state *state, vsc_error *
   if (model->solve.kind == VSC_SOLVE_EQUILIBRIUM) return vsc_equilibrium_start(model, state, error);
   if (model->solve.kind == VSC_SOLVE_IMPLICIT) return vsc_implicit_start(model, state, error);
   return vsc_start(model, state, error);
+}
+
+vsc_status vsc_solve_resume(const vsc_model *model, vsc_state *state, vsc_error *error)
+{
+  return model->solve.kind == VSC_SOLVE_EXPLICIT ? vsc_keep_volume_ready(model, error)
+                                                 : vsc_solve_start(model, state, error);
 }
 
 vsc_status vsc_solve_to(const vsc_model *model, vsc_state *state, double until, vsc_error *error)

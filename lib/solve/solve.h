@@ -10,6 +10,9 @@
 // vsc_equilibrium_start, vsc_relax_start.
 vsc_status vsc_solve_start(const vsc_model *model, vsc_state *state, vsc_error *error);
 
+// The same for a state that what a checkpoint holds is put into next: explicit steps compute nothing then.
+vsc_status vsc_solve_resume(const vsc_model *model, vsc_state *state, vsc_error *error);
+
 // Moves the state on to `until` (ms): vsc_advance, vsc_implicit_to, vsc_equilibrium_to, vsc_relax_to. After a failure the state is the
 // last good one of the method, or as the explicit method left it. VSC_INPUT before vsc_solve_start.
 vsc_status vsc_solve_to(const vsc_model *model, vsc_state *state, double until, vsc_error *error);
