@@ -343,7 +343,7 @@ static void curves_by_hand(void **state)
 {
   (void)state;
   save_text("run.csv", "time [s],a [mm],other [mm]\n0,0,1\n1,2,1\n2,4,1\n");
-  save_text("ref.csv", "time_s,b,low,high\n0,0,-1,2\n0.5,1,-1,2\n1.5,2,-1,2\n3,9,0,10\n");
+  save_text("ref.csv", "time_s,b,low,high,floor\n0,0,-1,2,0.5\n0.5,1,-1,2,1\n1.5,2,-1,2,1\n3,9,0,10,0\n");
   vsc_signals *run = NULL, *reference = NULL;
   vsc_curve_pair pair;
   vsc_curve_distance d;
@@ -358,6 +358,10 @@ static void curves_by_hand(void **state)
   assert_int_equal(d.missing, 1);
   assert_int_equal(d.banded, 3);
   assert_int_equal(d.within, 2);
+  // below the band, on its edge, above it
+  assert_int_equal(vsc_curve_pair_read("a=b,floor,high", &pair, NULL), VSC_OK);
+  assert_int_equal(vsc_curve_compare(run, reference, &pair, &d, NULL), VSC_OK);
+  assert_int_equal(d.within, 1);
   vsc_signals_free(run);
   vsc_signals_free(reference);
   must("$V compare --signals --column a=b,low,high --column other=b run.csv ref.csv");
