@@ -77,6 +77,7 @@ static void every_way_solves_to_the_tolerance(void **state)
     assert_true(what_is_left(&s) <= 1.01e-9);
     assert_true((vsc_linear_counted(s.linear).factorizations > 0) == (kind == VSC_LINEAR_DIRECT));
     assert_close(vsc_linear_past_of(s.linear)->shift, 0, 0, 0);
+    assert_close(vsc_linear_counted(s.linear).unfinished, 0, 0, 0);
     close_system(&s);
   }
 }
@@ -94,6 +95,22 @@ static void a_raised_diagonal_factorizes_what_buckles(void **state)
   assert_true(indefinite);
   assert_true(vsc_linear_past_of(s.linear)->shift > 0);
   assert_true(vsc_linear_counted(s.linear).factorizations >= 2);
+  assert_close(vsc_linear_counted(s.linear).unfinished, 1, 0, 0);
+  close_system(&s);
+}
+
+// Negative curvature ends iterations with diagonal blocks too, and that is counted.
+static void what_is_not_solved_is_counted(void **state)
+{
+  (void)state;
+  system_of s;
+  bool indefinite;
+  vsc_error error;
+  open_system(&s, VSC_LINEAR_ITERATIVE, 0.85);
+  assert_int_equal(solve(&s, 1e-9, &indefinite, &error), VSC_OK);
+  assert_true(indefinite);
+  assert_true(what_is_left(&s) > 1e-9);
+  assert_close(vsc_linear_counted(s.linear).unfinished, 1, 0, 0);
   close_system(&s);
 }
 
@@ -102,6 +119,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_way_solves_to_the_tolerance),
       cmocka_unit_test(a_raised_diagonal_factorizes_what_buckles),
+      cmocka_unit_test(what_is_not_solved_is_counted),
   };
   vsc_parallel_set_threads(1);
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -318,7 +318,7 @@ typedef struct vsc_model {
   double total_mass;    // mg, without what mass scaling has added
   vsc_scaled_mass scaled;
   double total_volume;  // mm^3
-  uint64_t hash;        // of everything above: two models with equal hashes move alike
+  uint64_t hash;        // of what moves it: two models with equal hashes move alike
 } vsc_model;
 
 // Builds the model of `definition` on `mesh` with the elements' `axes` (NULL: none are known, all elements are

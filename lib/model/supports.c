@@ -161,7 +161,6 @@ vsc_status vsc_terms_supports(const vsc_definition *definition, vsc_model *model
   return status;
 }
 
-// The model's numbers of `count` nodes of the mesh, owned by the caller; NULL when memory is short.
 static vsc_status add_pressure(const vsc_definition *definition, size_t p, const uint32_t *number,
                                vsc_model *model, vsc_error *error)
 {
