@@ -378,6 +378,17 @@ static void curves_by_hand(void **state)
   assert_int_equal(shell("$V compare --signals --column a=b,low,high --within 0.7 run.csv ref.csv"), 1);
 }
 
+// Why a series is not read.
+static void series_that_cannot_be_read(void **state)
+{
+  (void)state;
+  assert_int_equal(shell("$V compare none.pvd none.pvd"), 2);
+  assert_holds(complained, "none.pvd: cannot be read: No such file or directory");
+  // a loop of links is there, but leads nowhere
+  assert_int_equal(shell("ln -s loop.pvd loop.pvd && $V compare loop.pvd loop.pvd"), 2);
+  assert_holds(complained, "loop.pvd: cannot be read: Too many levels of symbolic links");
+}
+
 // A table's last line counts without its end; what a run may still write does not.
 static void last_lines_without_their_end(void **state)
 {
@@ -434,6 +445,7 @@ int main(void)
       cmocka_unit_test(orders_of_runs),
       cmocka_unit_test(orders_that_are_none),
       cmocka_unit_test(curves_by_hand),
+      cmocka_unit_test(series_that_cannot_be_read),
       cmocka_unit_test(last_lines_without_their_end),
       cmocka_unit_test(curves_refused),
   };

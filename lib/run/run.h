@@ -22,6 +22,9 @@ typedef struct vsc_run_options {
   void *progress_context;
 } vsc_run_options;
 
+// The name of a scene's file without folder and ending, of at most size - 1 bytes: that of a run's files.
+void vsc_run_name(const char *file, char *name, size_t size);
+
 // What a run has done.
 typedef struct vsc_run_result {
   double steps;      // of this call
