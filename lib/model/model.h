@@ -325,8 +325,8 @@ typedef struct vsc_model {
 // passive with global axes; one frame for all points of an element will do). Nothing is kept of the arguments.
 // VSC_INPUT for what does not fit together: a region without material, a missing array, an empty set, a surface that
 // is not there, an active material without fibres, axes that are not orthonormal. The caller owns *model.
-vsc_status vsc_model_build(const vsc_mesh *mesh, const vsc_axes *axes,
-                           const vsc_definition *definition, vsc_model **model, vsc_error *error);
+vsc_status vsc_model_build(const vsc_mesh *mesh, const vsc_axes *axes, const vsc_definition *definition,
+                           vsc_model **model, vsc_error *error);
 
 // The same where `mesh` is the body at rest, and surfaces and node sets are meant of `shown`: the same mesh with its
 // nodes elsewhere.
@@ -370,15 +370,13 @@ static inline size_t vsc_nodes_offset(const vsc_model *model, uint32_t family)
 _Static_assert(offsetof(vsc_pack, node) == sizeof(vsc_frame), "a tet's pack is a frame and nodes");
 
 // Pack `k` (counted through all patches) of a patch: its frames (of cells only), and its nodes [corner][lane].
-static inline const vsc_frame *vsc_pack_frames(const vsc_model *model, const vsc_patch *patch,
-                                               size_t k)
+static inline const vsc_frame *vsc_pack_frames(const vsc_model *model, const vsc_patch *patch, size_t k)
 {
   return (const vsc_frame *)(model->store + patch->packs +
                              (k - patch->first_pack) * vsc_pack_size(model, patch->family));
 }
 
-static inline const uint16_t (*vsc_pack_nodes(const vsc_model *model, const vsc_patch *patch,
-                                              size_t k))[VSC_WIDTH]
+static inline const uint16_t (*vsc_pack_nodes(const vsc_model *model, const vsc_patch *patch, size_t k))[VSC_WIDTH]
 {
   return (const uint16_t(*)[VSC_WIDTH])(model->store + patch->packs +
                                         (k - patch->first_pack) *
@@ -386,8 +384,7 @@ static inline const uint16_t (*vsc_pack_nodes(const vsc_model *model, const vsc_
                                         vsc_nodes_offset(model, patch->family));
 }
 
-static inline const vsc_triangle_pack *vsc_triangles_of(const vsc_model *model,
-                                                        const vsc_patch *patch)
+static inline const vsc_triangle_pack *vsc_triangles_of(const vsc_model *model, const vsc_patch *patch)
 {
   return (const vsc_triangle_pack *)(model->store + patch->packs);
 }
@@ -422,15 +419,13 @@ static inline const void *vsc_pack_law_data(const vsc_model *model, const vsc_pa
   return model->store + patch->law_data + (k - patch->first_pack) * bytes;
 }
 
-static inline const vsc_mixture *vsc_pack_mixture(const vsc_model *model, const vsc_patch *patch,
-                                                  size_t k)
+static inline const vsc_mixture *vsc_pack_mixture(const vsc_model *model, const vsc_patch *patch, size_t k)
 {
   return (const vsc_mixture *)(model->store + patch->mixtures) + (k - patch->first_pack);
 }
 
 // What smoothed tets have; only where the patch is smoothed.
-static inline const vsc_smoothed_pack *vsc_pack_smoothed(const vsc_model *model,
-                                                         const vsc_patch *patch, size_t k)
+static inline const vsc_smoothed_pack *vsc_pack_smoothed(const vsc_model *model, const vsc_patch *patch, size_t k)
 {
   return (const vsc_smoothed_pack *)(model->store + patch->smoothed) + (k - patch->first_pack);
 }
@@ -488,15 +483,12 @@ void vsc_kept_triangle(const vsc_model *model, size_t k, size_t t, const double 
 void vsc_obstacle_place(const vsc_obstacle *obstacle, double time, double point[3]);
 
 // How far `x` is outside an obstacle whose point is at `point` (below 0: inside), mm, and the unit vector out of it.
-double vsc_obstacle_gap(const vsc_obstacle *obstacle, const double point[3], const double x[3],
-                        double normal[3]);
+double vsc_obstacle_gap(const vsc_obstacle *obstacle, const double point[3], const double x[3], double normal[3]);
 
 // Activation of slot `slot` of `material` at `time`: amplitude . curve(time - delay).
-double vsc_model_activation(const vsc_model *model, const vsc_material *material, size_t slot,
-                            double time);
+double vsc_model_activation(const vsc_model *model, const vsc_material *material, size_t slot, double time);
 
 // The same of an edge frame, with the means of its tets' amplitudes and delays.
-double vsc_model_edge_activation(const vsc_model *model, const vsc_material *material, size_t edge,
-                                 double time);
+double vsc_model_edge_activation(const vsc_model *model, const vsc_material *material, size_t edge, double time);
 
 #endif
