@@ -63,10 +63,26 @@ static void short_memory_leaves_them_alone(void **state)
   assert_memory_equal(records, before, sizeof before);
 }
 
+// Differences that no int holds, too.
+static void numbers_are_compared(void **state)
+{
+  (void)state;
+  static const uint32_t small[2] = {1, UINT32_MAX};
+  static const uint64_t large[2] = {1, UINT64_MAX};
+  static const double real[2] = {-1e300, 1e-300};
+  for (int a = 0; a < 2; a++)
+    for (int b = 0; b < 2; b++) {
+      assert_int_equal(vsc_compare_uint32(&small[a], &small[b]), a - b);
+      assert_int_equal(vsc_compare_uint64(&large[a], &large[b]), a - b);
+      assert_int_equal(vsc_compare_doubles(&real[a], &real[b]), a - b);
+    }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(records_are_sorted_by_their_keys),
+      cmocka_unit_test(numbers_are_compared),
       cmocka_unit_test(short_memory_leaves_them_alone),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

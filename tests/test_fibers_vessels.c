@@ -90,6 +90,32 @@ static void a_straight_vessel(void **state)
     }
 }
 
+// Of a line that turns at a right angle, ends are cut flat and the joint is a ball: two cylinders, less a quarter of what
+// crossing ones share, 16 r^3/3, and a quarter of the ball, 5 % of the whole.
+static void a_bent_vessel(void **state)
+{
+  (void)state;
+  enum { JOINT = 1, ENDS = 3 };
+  vsc_mesh *mesh = mesh_of(ALL_TETS, 8, 4);
+  double *fraction = numbers(mesh->element_count), *direction = numbers(3 * mesh->element_count);
+  const double radius = 0.9, length = 3;
+  const double points[ENDS][3] = {{2.6 + length, 2.7, 4.05}, {2.6, 2.7, 4.05}, {2.6, 2.7 + length, 4.05}};
+  const uint32_t segments[2][2] = {{0, JOINT}, {JOINT, 2}};
+  const vsc_vessel_def def = {.radius = radius};
+  vsc_vessel_report report;
+  vsc_error error;
+  vsc_polydata *p = vsc_polydata_create(ENDS, 0, 2);
+  memcpy(p->points, points, sizeof points);
+  memcpy(p->segments, segments, sizeof segments);
+  if (vsc_vessel_sample(mesh, p, &def, fraction, direction, &report, &error) != VSC_OK) fail_msg("%s", error.text);
+  const double r3 = radius * radius * radius;
+  assert_close(report.volume, 2 * M_PI * radius * radius * length - 4 * r3 / 3 + M_PI * r3 / 3, 0.015, 0);
+  vsc_polydata_free(p);
+  vsc_free(fraction);
+  vsc_free(direction);
+  vsc_mesh_free(mesh);
+}
+
 // What one vessel has taken another does not get, and elements take the direction of the larger part.
 static void vessels_share_elements(void **state)
 {
@@ -220,6 +246,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_straight_vessel),
+      cmocka_unit_test(a_bent_vessel),
       cmocka_unit_test(vessels_share_elements),
       cmocka_unit_test(the_liver_and_its_vessels),
       cmocka_unit_test(a_patients_portal_vein),

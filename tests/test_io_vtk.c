@@ -143,7 +143,7 @@ static void legacy_files_are_read(void **state)
     {"4.2", "CELLS 2 9\n4 0 1 2 3\n3 0 1 2\n"},
     {"5.1", "CELLS 3 7\nOFFSETS vtktypeint64\n0 4 7\nCONNECTIVITY vtktypeint64\n0 1 2 3 0 1 2\n"}};
   const char *endings[] = {"", "METADATA\nINFORMATION 0\n\n", "METADATA\nINFORMATION 0\n",
-                           "METADATA\nCOMPONENT_NAMES\na\nb\n\n", "\n \n"};
+                           "METADATA\nINFORMATION 0", "METADATA\nCOMPONENT_NAMES\na\nb\n\n", "\n \n"};
   for (size_t v = 0; v < sizeof versions / sizeof versions[0]; v++)
     for (size_t e = 0; e < sizeof endings / sizeof endings[0]; e++) {
       char text[2000];

@@ -43,6 +43,19 @@ static void compliance_of(const vsc_material_def *material, double S[36])
   assert_int_equal(vsc_invert_six(C, S, NULL), VSC_OK);
 }
 
+// The nine numbers of any compliance.
+static vsc_moduli moduli_of(const double S[36])
+{
+  vsc_moduli moduli;
+  for (int a = 0; a < 3; a++) {
+    const vsc_named_direction d = vsc_direction(a), e = vsc_direction((a + 1) % 3);
+    moduli.young[a] = vsc_young(S, d.d);
+    moduli.shear[a] = vsc_shear(S, d.d, e.d);
+    moduli.poisson[a] = vsc_poisson(S, d.d, e.d);
+  }
+  return moduli;
+}
+
 // The energy of the law as it is written in its headers, at the axes g = (1 + strain) axis.
 static double energy_of(const vsc_material_def *material, const double strain[6])
 {
@@ -157,7 +170,7 @@ static void test_incompressible_limit(void **state)
       springs_of((double[]){10, 4, 3}, (double[]){1, 2, 3}, 1e7);  // errors are E / K
   double S[36];
   compliance_of(&material, S);
-  const vsc_moduli moduli = vsc_moduli_of(S);
+  const vsc_moduli moduli = moduli_of(S);
   assert_close(moduli.young[0], 10 + 12.0 / 7, 1e-5, 0);
   assert_close(moduli.young[1], 4 + 30.0 / 13, 1e-5, 0);
   assert_close(moduli.young[2], 3 + 40.0 / 14, 1e-5, 0);
@@ -252,7 +265,7 @@ static void test_springs_come_back(void **state)
     const double K = random_between(&seed, 1, 200);
     const vsc_material_def material = springs_of(E, G, K);
     compliance_of(&material, S);
-    const vsc_moduli moduli = vsc_moduli_of(S);
+    const vsc_moduli moduli = moduli_of(S);
     vsc_spring_constants springs;
     assert_int_equal(vsc_calibrate(&moduli, 3, &springs, NULL), VSC_OK);
     // the condition of the matrix, K / E, up to 400, times roundings
@@ -275,7 +288,7 @@ static void test_incompressible_example(void **state)
   assert_close(E[2], 0.334, 0, 5e-4);
   const vsc_material_def material = springs_of(E, wanted.shear, 1e6);
   compliance_of(&material, S);
-  const vsc_moduli got = vsc_moduli_of(S);
+  const vsc_moduli got = moduli_of(S);
   for (int a = 0; a < 3; a++) assert_close(got.young[a], wanted.young[a], 1e-5, 0);  // E / K
   // the same moduli with the ratios that follow, as an ordinary material
   assert_int_equal(vsc_moduli_incompressible(1e6, &wanted, NULL), VSC_OK);
@@ -349,7 +362,7 @@ static void test_nine_axes_match_nine_moduli(void **state)
   assert_int_equal(material.axis_count, 4);  // one coupling is K's
   compliance_of(&material, S);
   vsc_free(material.axes);
-  const vsc_moduli got = vsc_moduli_of(S);
+  const vsc_moduli got = moduli_of(S);
   for (int a = 0; a < 3; a++) {
     assert_close(got.young[a], wanted.young[a], 1e-8, 0);
     assert_close(got.shear[a], wanted.shear[a], 1e-8, 0);
@@ -400,7 +413,7 @@ static void test_published_myocardium(void **state)
     double S[36], E[3];
     const vsc_material_def material = springs_of(laws[w], laws[w] + 3, 1e7);
     compliance_of(&material, S);
-    const vsc_moduli moduli = vsc_moduli_of(S);
+    const vsc_moduli moduli = moduli_of(S);
     assert_int_equal(vsc_axial_incompressible(moduli.young, E, NULL), VSC_OK);
     // what K leaves, E / K, over the softest E
     for (int a = 0; a < 3; a++) assert_close(E[a], laws[w][a], 0, 1e-3);

@@ -3,7 +3,13 @@
 #include "block_scene.h"
 #include "run/run.h"
 
-// A support that jerks viscous tissue into motion: the ledger does not see it balance before steps are shorter.
+static double number(const char *run, const char *key)
+{
+  return strtod(summary(run, key), NULL);
+}
+
+// A support that jerks viscous tissue into motion: the ledger does not see it balance before looks are closer and steps,
+// with the second repetition, are a half, a quarter and so on of what they may be; that counts among the steps saved.
 // A load that tears it to pieces: what is told, and the last good state is kept.
 static void test_repeated_with_shorter_steps(void **state)
 {
@@ -25,7 +31,14 @@ static void test_repeated_with_shorter_steps(void **state)
   save_text("jerk.yaml", jerk);
   must("$V run jerk.yaml -q -o jerk");
   assert_string_equal(summary("jerk", "outcome"), "finished");
-  assert_true(strtod(summary("jerk", "stretches_repeated_with_shorter_steps"), NULL) >= 1);
+  const double repeated = number("jerk", "stretches_repeated_with_shorter_steps"), steps = number("jerk", "steps"),
+               least = number("jerk", "shortest_allowed_step_ms");
+  assert_true(repeated >= 1);
+  assert_close(steps * least / 3, ldexp(1, (int)repeated), 0.05, 0);
+  assert_close(number("jerk", "steps_saved"), 3 / least - steps, 0, 1e-4);
+  // with looks that do not come closer each time it takes one time more
+  must("$V run jerk.yaml -q -o soft --set 'materials[0].volume_modulus=100 kPa' --set 'time.end=1 ms'");
+  assert_close(number("soft", "stretches_repeated_with_shorter_steps"), 2, 0, 0);
   assert_int_equal(shell("$V run jerk.yaml -q -o torn --set 'pressures=[{surface: end, peak: 100 MPa}]'"), 3);
   assert_non_null(strstr(complained, "the energy balance jumped"));
   assert_non_null(strstr(complained, " energy; element "));
@@ -47,6 +60,28 @@ static void test_repeated_without_a_message(void **state)
   assert_true(result.repeated >= 1);
   assert_string_equal(error.text, "");
   vsc_problem_free(problem);
+}
+
+// After 16 looks that have balanced steps become longer again, twice as long at a time.
+static void test_steps_grow_again(void **state)
+{
+  (void)state;
+  must("$V run jerk.yaml -q -o calm --set 'time.end=50 ms' --stop '49 ms'");
+  assert_true(number("calm", "stretches_repeated_with_shorter_steps") >= 1);
+  must("$V run jerk.yaml -q -o calm --set 'time.end=50 ms' --resume");
+  assert_close(number("calm", "steps_this_run") * last_signal("calm", "step [ms]"), 1, 0.05, 0);
+}
+
+// Going back does not forget what the row before has marked: the mean force since then, times the support's way, is
+// its work since then.
+static void test_rows_before_a_repetition_count(void **state)
+{
+  (void)state;
+  must("$V run jerk.yaml -q -o late --set 'time.end=3 ms' "
+       "--set 'supports[1].curve={kind: ramp, start: 2 ms, duration: 5 ms}'");
+  assert_true(number("late", "stretches_repeated_with_shorter_steps") >= 1);
+  const double way = 0.2;  // mm in 1 ms
+  assert_close(1e-3 * way * last_signal("late", "support_right_x"), last_signal("late", "work_supports"), 1e-6, 0);
 }
 
 // So viscous that no look is close enough where the support starts and stops: the run goes on, and its balance too.
@@ -192,6 +227,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_repeated_with_shorter_steps),
       cmocka_unit_test(test_repeated_without_a_message),
+      cmocka_unit_test(test_steps_grow_again),
+      cmocka_unit_test(test_rows_before_a_repetition_count),
       cmocka_unit_test(test_energy_made_by_implicit_steps),
       cmocka_unit_test(test_interrupted),
       cmocka_unit_test(test_interrupted_on_the_way),

@@ -424,6 +424,33 @@ static void test_step_that_becomes_unstable(void **state)
   body_close(&body);
 }
 
+// Squeezed slowly by its support, tissue is too stiff for a step soon after it has become so.
+static void test_a_step_is_refused_in_time(void **state)
+{
+  (void)state;
+  small_body body;
+  vsc_error error;
+  open_block(&body);
+  body_hold(&body, "z1", 1, 1, 1);
+  body.supports[1].motion[2] = -6;
+  body.supports[1].curve = vsc_default_curve(VSC_CURVE_RAMP);
+  body.supports[1].curve.duration = 100;
+  body.definition.safety = 1;
+  body_build(&body);
+  body_start(&body);
+  body.definition.step = 0.99 * body.state->limit.step;
+  vsc_state_free(body.state);
+  vsc_model_free(body.model);
+  body_build(&body);
+  body_start(&body);
+  assert_int_equal(vsc_advance(body.model, body.state, 100, &error), VSC_NUMERICAL);
+  assert_non_null(strstr(error.text, "too stiff for time.step"));
+  const double stable = body.state->limit.step;
+  print_message("%g ms: %g of %g ms\n", body.state->time, stable, body.definition.step);
+  assert_true(stable < body.definition.step && stable > 0.95 * body.definition.step);
+  body_close(&body);
+}
+
 // Steps are cut so that each stop is met to the bit, and the estimate follows at least every 128 steps where those take more
 // than 4 ms.
 static void test_advance_meets_its_stops(void **state)
@@ -463,6 +490,7 @@ int main(void)
       cmocka_unit_test(test_blow_up_is_reported),
       cmocka_unit_test(test_absurd_state_ends),
       cmocka_unit_test(test_step_that_becomes_unstable),
+      cmocka_unit_test(test_a_step_is_refused_in_time),
       cmocka_unit_test(test_advance_meets_its_stops),
   };
   vsc_parallel_set_threads(1);

@@ -328,6 +328,30 @@ static void a_corner_swings_with_its_own_mass(void **state)
   body_close(&body);
 }
 
+// Far more weight than a step of the whole way can take: steps that fail are made again, 0.4 times as long each time. Where
+// tissue is crushed no step is short enough, and that is told.
+static void steps_that_fail_become_shorter(void **state)
+{
+  (void)state;
+  for (int crushed = 0; crushed < 2; crushed++) {
+    small_body body;
+    vsc_error error;
+    open_swing(&body, false);
+    body.definition.gravity[0] = crushed ? -20 : -2.7;
+    body.definition.solve.kind = VSC_SOLVE_IMPLICIT;
+    body.definition.step = END;
+    body_build(&body);
+    assert_int_equal(vsc_solve_start(body.model, body.state, &error), VSC_OK);
+    assert_int_equal(vsc_solve_to(body.model, body.state, END, &error), crushed ? VSC_NUMERICAL : VSC_OK);
+    const vsc_implicit_counts counts = vsc_implicit_counted(body.state);
+    assert_true(crushed || body.state->time == END);
+    // 0.4^3 of the way is below a tenth of it, 0.4^16 below a millionth
+    assert_true(counts.failed >= (crushed ? 15 : 3));
+    assert_true(body.state->steps == counts.steps);
+    body_close(&body);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -337,6 +361,7 @@ int main(void)
       cmocka_unit_test(a_short_load_is_not_jumped_over),
       cmocka_unit_test(a_small_wave_is_not_jumped_over),
       cmocka_unit_test(a_free_body_falls_with_consistent_masses),
+      cmocka_unit_test(steps_that_fail_become_shorter),
       cmocka_unit_test(a_corner_swings_with_its_own_mass),
       cmocka_unit_test(a_stop_does_not_change_the_bits),
   };

@@ -361,7 +361,7 @@ static void curves_by_hand(void **state)
 {
   (void)state;
   save_text("run.csv", "time [s],a [mm],other [mm]\n0,0,1\n1,2,1\n2,4,1\n");
-  save_text("ref.csv", "time_s,b,low,high\n0,0,-1,2\n0.5,1,-1,2\n1.5,2,-1,2\n3,9,0,10\n");
+  save_text("ref.csv", "time_s,b,low,high,floor\n0,0,-1,2,0.5\n0.5,1,-1,2,1\n1.5,2,-1,2,1\n3,9,0,10,0\n");
   vsc_signals *run = NULL, *reference = NULL;
   vsc_curve_pair pair;
   vsc_curve_distance d;
@@ -376,6 +376,10 @@ static void curves_by_hand(void **state)
   assert_int_equal(d.missing, 1);
   assert_int_equal(d.banded, 3);
   assert_int_equal(d.within, 2);
+  // below the band, on its edge, above it
+  assert_int_equal(vsc_curve_pair_read("a=b,floor,high", &pair, NULL), VSC_OK);
+  assert_int_equal(vsc_curve_compare(run, reference, &pair, &d, NULL), VSC_OK);
+  assert_int_equal(d.within, 1);
   vsc_signals_free(run);
   vsc_signals_free(reference);
   must("$V compare --signals --column a=b,low,high --column other=b run.csv ref.csv");
@@ -390,6 +394,17 @@ static void curves_by_hand(void **state)
   must("$V compare --signals --column a=b,low,high -t 0.9 --within 0.66 run.csv ref.csv");
   assert_int_equal(shell("$V compare --signals --column a=b -t 0.4 run.csv ref.csv"), 1);
   assert_int_equal(shell("$V compare --signals --column a=b,low,high --within 0.7 run.csv ref.csv"), 1);
+}
+
+// Why a series is not read.
+static void series_that_cannot_be_read(void **state)
+{
+  (void)state;
+  assert_int_equal(shell("$V compare none.pvd none.pvd"), 2);
+  assert_holds(complained, "none.pvd: cannot be read: No such file or directory");
+  // a loop of links is there, but leads nowhere
+  assert_int_equal(shell("ln -s loop.pvd loop.pvd && $V compare loop.pvd loop.pvd"), 2);
+  assert_holds(complained, "loop.pvd: cannot be read: Too many levels of symbolic links");
 }
 
 // A table's last line counts without its end; what a run may still write does not.
@@ -449,6 +464,7 @@ int main(void)
       cmocka_unit_test(orders_of_runs),
       cmocka_unit_test(orders_that_are_none),
       cmocka_unit_test(curves_by_hand),
+      cmocka_unit_test(series_that_cannot_be_read),
       cmocka_unit_test(last_lines_without_their_end),
       cmocka_unit_test(curves_refused),
   };

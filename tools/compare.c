@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `viscera compare`: how far apart results are: two meshes or series array by array, a series of runs
 // from coarse to fine, curves over time.
+#include <errno.h>
 #include <getopt.h>
 #include <math.h>
 #include <stdbool.h>
@@ -77,7 +78,8 @@ static void print_help(void)
 
 static vsc_status open_series(const char *file, vsc_pvd **series, vsc_error *error)
 {
-  if (access(file, R_OK) != 0) return vsc_fail(error, VSC_INPUT, "%s: no such file", file);
+  if (access(file, R_OK) != 0)
+    return vsc_fail(error, VSC_INPUT, "%s: cannot be read: %s; check its name", file, strerror(errno));
   const vsc_status status = vsc_pvd_open(file, HUGE_VAL, series, error);
   if (status == VSC_OK && vsc_pvd_count(*series) == 0)
     return vsc_fail(error, VSC_INPUT, "%s: the series has no frames", file);
@@ -208,12 +210,6 @@ static vsc_status add_series(const wish *wish, vsc_comparison *all, vsc_pair *pa
   return status;
 }
 
-static bool is_series(const char *file)
-{
-  const size_t length = strlen(file);
-  return length > 4 && strcmp(file + length - 4, ".pvd") == 0;
-}
-
 // A folder's series, or the file itself.
 static vsc_status resolve(const char *given, char file[VSC_RESULT_PATH], vsc_error *error)
 {
@@ -237,11 +233,11 @@ static vsc_status compare_files(const wish *wish, char *const given[2], vsc_comp
   vsc_status status = resolve(given[0], a, error);
   if (status == VSC_OK) status = resolve(given[1], b, error);
   if (status != VSC_OK) return status;
-  if (is_series(a) != is_series(b))
+  if (vsc_is_series(a) != vsc_is_series(b))
     return vsc_fail(error, VSC_INPUT,
                     "%s is a series and %s is not: give two series or two meshes",
-                    is_series(a) ? a : b, is_series(a) ? b : a);
-  if (is_series(a)) return add_series(wish, all, pair, a, b, missing, error);
+                    vsc_is_series(a) ? a : b, vsc_is_series(a) ? b : a);
+  if (vsc_is_series(a)) return add_series(wish, all, pair, a, b, missing, error);
   return vsc_compare_files(all, pair, a, b, error);
 }
 

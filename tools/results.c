@@ -3,14 +3,13 @@
 
 #include <dirent.h>
 #include <math.h>
-#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
-static bool is_series(const char *name)
+bool vsc_is_series(const char *name)
 {
   const size_t length = strlen(name);
-  return name[0] != '.' && length > 4 && strcmp(name + length - 4, ".pvd") == 0;
+  return length > 4 && strcmp(name + length - 4, ".pvd") == 0;
 }
 
 // How many series the folder has; the name of one of them.
@@ -20,7 +19,8 @@ static size_t count_series(const char *folder, char name[VSC_RESULT_PATH])
   DIR *stream = opendir(folder);
   if (stream == NULL) return 0;
   for (const struct dirent *entry; (entry = readdir(stream)) != NULL;)
-    if (is_series(entry->d_name) && count++ == 0) snprintf(name, VSC_RESULT_PATH, "%s", entry->d_name);
+    if (entry->d_name[0] != '.' && vsc_is_series(entry->d_name) && count++ == 0)
+      snprintf(name, VSC_RESULT_PATH, "%s", entry->d_name);
   closedir(stream);
   return count;
 }

@@ -3,6 +3,7 @@
 #ifndef VSC_TOOLS_RESULTS_H
 #define VSC_TOOLS_RESULTS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "io/pvd.h"
@@ -13,6 +14,9 @@ typedef struct vsc_results {
   char pvd[VSC_RESULT_PATH];  // the series' file
   vsc_pvd *series;     // owned; at least one frame
 } vsc_results;
+
+// Whether a file's name is that of a series: ends in .pvd behind something.
+bool vsc_is_series(const char *file);
 
 // Opens the only *.pvd of the folder. VSC_INPUT with a message when there is none or several, or it
 // has no frame. On success the caller frees with vsc_results_close; after an error there is nothing

@@ -115,15 +115,6 @@ static int read_arguments(int argc, char **argv, run_arguments *arguments, bool 
   return 2;
 }
 
-// The scene file's name without folder and ending.
-static void name_directory(const char *scene, char *directory, size_t size)
-{
-  const char *slash = strrchr(scene, '/');
-  snprintf(directory, size, "%s", slash ? slash + 1 : scene);
-  char *dot = strrchr(directory, '.');
-  if (dot != NULL && dot != directory) *dot = '\0';
-}
-
 static void report_unloaded(const vsc_unloaded *unloaded)
 {
   if (unloaded == NULL) return;
@@ -200,7 +191,7 @@ int vsc_verb_run(int argc, char **argv)
   int code = read_arguments(argc, argv, &arguments, &helped);
   if (code != 0 || helped) return code;
   if (arguments.run.directory == NULL) {
-    name_directory(arguments.scene.scene, directory, sizeof directory);
+    vsc_run_name(arguments.scene.scene, directory, sizeof directory);
     arguments.run.directory = directory;
   }
   vsc_problem *problem;

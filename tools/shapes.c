@@ -121,12 +121,6 @@ static double base_height(const vsc_lv_shape *lv, double t)
   return lv->base - lv->base_rise * c / (b + sqrt(b * b - a * c));
 }
 
-double vsc_lv_volume(const vsc_lv_shape *lv, double depth)
-{
-  const double rs = radius(lv, depth), rl = length(lv, depth), b = base_height(lv, depth);
-  return M_PI * rs * rs * (b + 2 * rl / 3 - b * b * b / (3 * rl * rl));
-}
-
 static const double z_axis[3] = {0, 0, 1}, x_axis[3] = {1, 0, 0};
 
 static vsc_ellipsoid_def wall_of(const vsc_lv_shape *lv)

@@ -40,10 +40,6 @@ vsc_lv_shape vsc_lv_land(void);
 // where cos u = 5/17 inside and 5/20 outside, with surfaces; 32 x 20 x 2 bricks (7040 tets).
 vsc_lv_shape vsc_lv_arostica(void);
 
-// The volume between the ellipsoid of depth `depth` and the plane through its ring of the base, mm^3:
-// pi rs^2 (b + 2 rl/3 - b^3 / (3 rl^2)).
-double vsc_lv_volume(const vsc_lv_shape *shape, double depth);
-
 // Depth of a point: the t whose ellipsoid holds it, between -1 and 3 (limited to these):
 // vsc_ellipsoid_depth.
 double vsc_lv_depth(const vsc_lv_shape *shape, const double point[3]);

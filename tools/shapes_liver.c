@@ -8,7 +8,12 @@
 #include "base/vec3.h"
 #include "tools/shapes_bricks.h"
 
-void vsc_liver_point(const double ball[3], double point[3])
+// A ball (a, b, c) drawn out into a liver of human size, 1.6 l: x runs from the left lobe (negative, thin)
+// to the right one (thick), y from the front to the back, z from the bottom, which is hollow, to the
+// top, which lies under the diaphragm:
+//   t = (1 + a)/2, thick = 0.40 + 0.60 t (2 - t), wide = 0.66 + 0.34 t (2 - t)
+//   x = 112 a,  y = 80 b wide,  z = 64 c thick (1 - 0.15 (1 - c)) - 14 (1 - t) + 10 b^2, mm
+static void draw_out(const double ball[3], double point[3])
 {
   const double a = ball[0], b = ball[1], c = ball[2], t = 0.5 * (1 + a);
   const double swell = t * (2 - t), thick = 0.40 + 0.60 * swell, wide = 0.66 + 0.34 * swell;
@@ -39,7 +44,7 @@ static void place_nodes(size_t cells, vsc_mesh *mesh, vsc_array *sides[4])
     double cube[3], ball[3];
     for (int a = 0; a < 3; a++) cube[a] = 2 * (double)at[a] / (double)cells - 1;
     cube_to_ball(cube, ball);
-    vsc_liver_point(ball, mesh->nodes + 3 * i);
+    draw_out(ball, mesh->nodes + 3 * i);
     sides[0]->values[i] = at[2] == cells;
     sides[1]->values[i] = at[2] == 0;
     sides[2]->values[i] = at[1] == 0;
@@ -94,7 +99,7 @@ typedef struct grower {
 
 static void add_point(grower *g, const double ball[3], double radius, bool joined)
 {
-  vsc_liver_point(ball, g->tree->points + 3 * g->points);
+  draw_out(ball, g->tree->points + 3 * g->points);
   g->radius[g->points] = radius;
   if (joined) {
     g->tree->segments[2 * g->segments] = (uint32_t)g->points - 1;

@@ -6,13 +6,6 @@
 #include "mesh/mesh.h"
 #include "mesh/polydata.h"
 
-// A ball (a, b, c) drawn out into a liver of human size, 1.6 l: x runs from the left lobe (negative, thin)
-// to the right one (thick), y from the front to the back, z from the bottom, which is hollow, to the
-// top, which lies under the diaphragm:
-//   t = (1 + a)/2, thick = 0.40 + 0.60 t (2 - t), wide = 0.66 + 0.34 t (2 - t)
-//   x = 112 a,  y = 80 b wide,  z = 64 c thick (1 - 0.15 (1 - c)) - 14 (1 - t) + 10 b^2, mm
-void vsc_liver_point(const double ball[3], double point[3]);
-
 // The mesh: a cube of `cells` bricks a side (at least 2) rounded half-way to the ball,
 // x (sqrt(1 - y^2/2 - z^2/2 + y^2 z^2/3) + 0.82)/2, and drawn out into the liver, five tets a brick. Node arrays `top`,
 // `bottom`, `front` (three sides of the cube) and `back` (the bare area: the middle of the fourth),

@@ -7,7 +7,8 @@
 
 #include <stddef.h>
 
-// Sets the number of threads, at least 1; 0: as many as there are processors (or OMP_NUM_THREADS).
+// Sets the number of threads, at least 1; 0: as many as there are processors (or OMP_NUM_THREADS). To be called before
+// anything is made that has scratch memory for each thread (vsc_state_create, vsc_tangent_create); fewer may be set later.
 void vsc_parallel_set_threads(int threads);
 
 // The number of threads that vsc_parallel_for uses.

@@ -12,4 +12,23 @@
 // were, when memory is short.
 bool vsc_sort(void *records, size_t count, size_t words, size_t keys);
 
+// Of numbers (not NaN), ascending: for qsort and bsearch.
+static inline int vsc_compare_uint32(const void *a, const void *b)
+{
+  const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+  return (x > y) - (x < y);
+}
+
+static inline int vsc_compare_uint64(const void *a, const void *b)
+{
+  const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+  return (x > y) - (x < y);
+}
+
+static inline int vsc_compare_doubles(const void *a, const void *b)
+{
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
 #endif

@@ -10,6 +10,7 @@
 
 enum { LARGEST_SCENE = 8 << 20 };  // bytes
 
+// Reads until the end of the stream or one byte more than a scene may have; false when memory is short.
 static bool read_stream(FILE *stream, char **text, size_t *size)
 {
   for (size_t room = 1 << 14;; room *= 2) {

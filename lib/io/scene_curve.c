@@ -69,8 +69,8 @@ static vsc_status read_lines(vsc_reading *reading, FILE *stream, const char *fil
                           file, curve->point_count);
 }
 
-vsc_status vsc_scene_read_table(vsc_reading *reading, const char *file, double unit,
-                                vsc_curve_def *curve)
+// Reads a CSV file of two columns, times (of `unit` ms each) and values, into the curve.
+static vsc_status read_table(vsc_reading *reading, const char *file, double unit, vsc_curve_def *curve)
 {
   vsc_status status = vsc_scene_file_exists(reading, file);
   if (status != VSC_OK) return status;
@@ -98,7 +98,7 @@ static vsc_status read_file(vsc_reading *reading, const char *name, const char *
   vsc_leave(reading, length);
   length = vsc_enter(reading, "file");
   status = vsc_scene_resolve(reading, name, file);
-  if (status == VSC_OK) status = vsc_scene_read_table(reading, file, unit, curve);
+  if (status == VSC_OK) status = read_table(reading, file, unit, curve);
   if (status == VSC_OK) vsc_leave(reading, length);
   return status;
 }

@@ -38,19 +38,12 @@ static cyaml_schema_value_t *item_value(const vsc_group *group)
   return &group->fields[group->row_count].value;
 }
 
-static bool is_list(const vsc_row *row)
-{
-  return row->kind == VSC_ROW_VECTOR || row->kind == VSC_ROW_SERIES ||
-         row->kind == VSC_ROW_INTEGERS || row->kind == VSC_ROW_NAMES ||
-         row->kind == VSC_ROW_FLAGS || row->kind == VSC_ROW_GROUPS;
-}
-
 static cyaml_schema_value_t row_value(const vsc_row *row)
 {
   const enum cyaml_flag flags = (enum cyaml_flag)(CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL);
   cyaml_schema_value_t value = text_value;
   if (row->kind == VSC_ROW_GROUP) value = group_value(row->group, flags);
-  if (is_list(row)) {
+  if (vsc_row_is_list(row)) {
     const bool groups = row->kind == VSC_ROW_GROUPS;
     const cyaml_schema_value_t *entry = groups ? item_value(row->group) : &text_value;
     const bool filled =
@@ -163,7 +156,7 @@ static vsc_status fail_shape(const vsc_reading *reading, const vsc_row *row, boo
     return vsc_reading_fail(reading, "%s; expected a list, its items behind dashes", found);
   if (item) return vsc_reading_fail(reading, "%s; expected a single value", found);
   return vsc_reading_fail(reading, "%s; expected %s such as %s", found,
-                          is_list(row) ? "a list" : "one value", row->text);
+                          vsc_row_is_list(row) ? "a list" : "one value", row->text);
 }
 
 static vsc_status explain(vsc_reading *reading, const complaint *heard, const vsc_row *start,
@@ -229,7 +222,7 @@ vsc_status vsc_scene_load_value(vsc_reading *reading, const vsc_row *row, const 
   if (text[0] == '\0') text = "\"\"";
   const size_t length = vsc_enter(reading, "");
   const cyaml_err_t code = cyaml_load_data((const uint8_t *)text, strlen(text), &config, &schema,
-                                           &loaded, is_list(row) ? &count : NULL);
+                                           &loaded, vsc_row_is_list(row) ? &count : NULL);
   if (code != CYAML_OK) return explain(reading, &heard, row, code);
   vsc_leave(reading, length);
   cyaml_free(&config, &schema, slot->value, (unsigned)slot->count);

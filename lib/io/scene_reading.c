@@ -73,8 +73,6 @@ vsc_status vsc_reading_locate(const vsc_reading *reading, const vsc_error *found
   return fail_at(reading, key, colon + 2);
 }
 
-// Reads until the end of the stream or one byte more than a scene may have.
-
 vsc_status vsc_scene_file_exists(vsc_reading *reading, const char *file)
 {
   struct stat found;

@@ -66,10 +66,6 @@ vsc_status vsc_row_read(vsc_reading *reading, const vsc_row *row, const vsc_slot
                         void *target);
 void vsc_row_write(FILE *stream, const vsc_row *row, const void *target);
 
-// Reads a CSV file of two columns, times (of `unit` ms each) and values, into the curve.
-vsc_status vsc_scene_read_table(vsc_reading *reading, const char *file, double unit,
-                                vsc_curve_def *curve);
-
 // `finish` of the groups: rules that look at several keys of a curve, of a surface or node set.
 vsc_status vsc_curve_finish(vsc_reading *reading, const vsc_slot *slots, void *curve);
 vsc_status vsc_selector_finish(vsc_reading *reading, const vsc_slot *slots, void *selector);

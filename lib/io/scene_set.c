@@ -53,10 +53,7 @@ static vsc_status open_group(vsc_reading *reading, place *at)
 
 static vsc_status step_into_item(vsc_reading *reading, place *at, size_t item)
 {
-  const bool list = is_groups(at->row) || at->row->kind == VSC_ROW_NAMES ||
-                    at->row->kind == VSC_ROW_INTEGERS || at->row->kind == VSC_ROW_VECTOR ||
-                    at->row->kind == VSC_ROW_SERIES || at->row->kind == VSC_ROW_FLAGS;
-  if (!list || at->item) return vsc_reading_fail(reading, "no list; leave out [%zu]", item);
+  if (!vsc_row_is_list(at->row) || at->item) return vsc_reading_fail(reading, "no list; leave out [%zu]", item);
   const size_t count = at->slot->count;
   if (item > count)
     return vsc_reading_fail(reading, "no item [%zu]; it has %zu, the next would be [%zu]", item,

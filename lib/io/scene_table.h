@@ -59,6 +59,13 @@ typedef struct vsc_row {
   const char *meaning;         // in the template
 } vsc_row;
 
+// Whether its value is written as a list.
+static inline bool vsc_row_is_list(const vsc_row *row)
+{
+  return row->kind == VSC_ROW_VECTOR || row->kind == VSC_ROW_SERIES || row->kind == VSC_ROW_INTEGERS ||
+         row->kind == VSC_ROW_NAMES || row->kind == VSC_ROW_FLAGS || row->kind == VSC_ROW_GROUPS;
+}
+
 // As libcyaml loads it: for each row a slot, NULL where the file lacks the key. A group is an array
 // of row_count slots; a list of groups is `count` such arrays in one, other lists are
 // char *[count].

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// VTK's grids and images behind plain C. One of three doors to VTK (vtk_polydata.h, vtk_delaunay.h);
-// no exception and no VTK message gets through.
+// VTK's grids and images behind plain C. One of four doors to VTK (vtk_polydata.h, vtk_delaunay.h,
+// vtk_probe.h); no exception and no VTK message gets through.
 // Calls from several threads are served one after the other.
 #ifndef VSC_IO_VTK_H
 #define VSC_IO_VTK_H
@@ -37,7 +37,7 @@ typedef enum vsc_vtk_place {
 // One array to write, borrowed for the call.
 typedef struct vsc_vtk_array {
   const char *name;
-  int components;        // 1 or 3
+  int components;        // of a tuple: 1, 3, 6 ...
   const double *values;  // a tuple for each node, element or triangle
   vsc_vtk_place place;
   bool integer;          // written as Int32

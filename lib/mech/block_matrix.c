@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/sort.h"
 
 // Which groups each node is in: members[at[n]] .. members[at[n + 1] - 1].
 static bool list_members(size_t node_count, size_t group_count, const size_t *group,
@@ -19,12 +20,6 @@ static bool list_members(size_t node_count, size_t group_count, const size_t *gr
   for (size_t g = 0; g < group_count; g++)
     for (size_t k = group[g]; k < group[g + 1]; k++) (*members)[(*at)[nodes[k] + 1]++] = (uint32_t)g;
   return true;
-}
-
-static int by_number(const void *a, const void *b)
-{
-  const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-  return (x > y) - (x < y);
 }
 
 // The nodes i >= j that share a group with j, into `found`, unsorted; returns how many.
@@ -62,7 +57,7 @@ bool vsc_block_matrix_create(size_t node_count, size_t group_count, const size_t
   for (uint32_t j = 0; made && j < node_count; j++) {
     uint32_t *rows = matrix->row + matrix->start[j];
     const size_t count = neighbours(j, at, members, group, nodes, mark, rows);
-    qsort(rows, count, sizeof *rows, by_number);
+    qsort(rows, count, sizeof *rows, vsc_compare_uint32);
   }
   vsc_free(at);
   vsc_free(members);

@@ -48,7 +48,7 @@ typedef struct vsc_ledger {
   double dissipation;  // power at the last call, uJ/ms
   double calls;
   double *way;      // (frames + packs of edges) x 4: along which tension worked, at the last call
-                    // (mech/element.h); NULL when nothing is active. Owned
+                    // (mech/element.h); of no size when nothing is active. Owned
   double *tension;  // likewise: active tension at the last call, kPa. Owned
   double *push;     // forces and places of the nodes under pressure (mech/loads.h). Owned
   vsc_totals *parts;  // of each patch and of each block of edges. Owned

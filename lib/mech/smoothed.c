@@ -139,9 +139,8 @@ vsc_scratch *vsc_smoothed_create(const vsc_model *model)
 {
   vsc_scratch *made;
   if (!VSC_NEW(made, 1)) return NULL;
-  made->threads = vsc_parallel_threads();
   made->local_size = (4 * model->most_nodes + 7) / 8 * 8;
-  if (VSC_NEW(made->local, (size_t)made->threads * made->local_size) &&
+  if (VSC_NEW(made->local, (size_t)vsc_parallel_threads() * made->local_size) &&
       VSC_NEW(made->partial, 4 * model->partial_count) &&
       VSC_NEW(made->predicted, 4 * model->node_count) &&
       VSC_NEW(made->gradient, VSC_MATRIX * VSC_WIDTH * model->pack_count) &&

@@ -32,7 +32,6 @@ static bool allocate(const vsc_model *model, vsc_state *state)
   vsc_scratch *scratch = &state->scratch;
   scratch->load = 1;
   state->limit.caution = 1;
-  scratch->threads = vsc_parallel_threads();
   // positions, velocities and forces of a patch's nodes, their pressures, the activation of its
   // packs
   scratch->local_size = (4 * 3 + 1) * model->most_nodes + VSC_WIDTH * (model->most_packs + 2);
@@ -43,7 +42,7 @@ static bool allocate(const vsc_model *model, vsc_state *state)
   return VSC_NEW(state->x, 4 * n) && VSC_NEW(state->v, 4 * n) && VSC_NEW(state->a, 4 * n) &&
          VSC_NEW(state->past_a, vsc_state_has_past(model) ? 4 * n : 0) &&
          VSC_NEW(state->force, 4 * n) && VSC_NEW(state->limit.mode, 4 * n) &&
-         VSC_NEW(scratch->local, (size_t)scratch->threads * scratch->local_size) &&
+         VSC_NEW(scratch->local, (size_t)vsc_parallel_threads() * scratch->local_size) &&
          VSC_NEW(scratch->partial, 4 * model->partial_count) &&
          VSC_NEW(scratch->volume, nodal ? n : 0) &&
          VSC_NEW(scratch->partial_volume, nodal ? model->partial_count : 0) &&

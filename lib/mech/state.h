@@ -28,9 +28,8 @@ typedef struct vsc_limit {
 typedef struct vsc_scratch {
   double load;    // part of all loads and of all activity that counts: 1, but while they come up
                   // on the way to a first equilibrium
-  double *local;  // threads x local_size: the nodes and forces of one patch
+  double *local;  // vsc_parallel_threads() when it was made x local_size: the nodes and forces of one patch
   size_t local_size;
-  int threads;
   double *partial;         // partial_count x 4: parts of the forces on shared nodes, mN
   double *outside;         // node_count x 4: forces of loads on surfaces, mN; NULL where there are none
   double *pull;            // 4 for each row of the largest of model.robins: what springs and dashpots there
@@ -116,9 +115,8 @@ static inline bool vsc_is_set(const volatile sig_atomic_t *flag)
 }
 
 // The state of `model` in its shape at rest at time 0, with its initial velocity, its acceleration still to be
-// computed (vsc_start).
-// Nothing is allocated after this. Must be created after the number of threads is set. The caller
-// owns *state.
+// computed (vsc_start). What the method itself remembers comes when that starts (vsc_solve_start) or first needs it.
+// It has room for as many threads as there are now: more must not be set while it is in use. The caller owns *state.
 vsc_status vsc_state_create(const vsc_model *model, vsc_state **state, vsc_error *error);
 
 void vsc_state_free(vsc_state *state);  // NULL is fine

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "base/sort.h"
 #include "base/vec3.h"
 #include "mech/element.h"
 #include "mech/force.h"
@@ -134,16 +135,10 @@ static vsc_wide shared_pressure(const vsc_patch_work *work, const vsc_model *mod
                                                        vsc_select(full, rest, vsc_splat(1)));
 }
 
-static int compare_numbers(const void *a, const void *b)
-{
-  const uint32_t first = *(const uint32_t *)a, second = *(const uint32_t *)b;
-  return (first > second) - (first < second);
-}
-
 // The multiplier that keeps the volume of number `source`; 0 where that cannot change.
 static double kept_at(const vsc_kept_volumes *kept, const double *pressure, uint32_t source)
 {
-  const uint32_t *found = bsearch(&source, kept->source, kept->count, sizeof source, compare_numbers);
+  const uint32_t *found = bsearch(&source, kept->source, kept->count, sizeof source, vsc_compare_uint32);
   return found != NULL ? pressure[found - kept->source] : 0;
 }
 
@@ -162,6 +157,16 @@ static vsc_wide kept_stress(const vsc_model *model, const vsc_patch *patch, size
       sum[l] += kept_at(kept, pressure, model->mesh_node[node]) / corners;
     }
   return -sum;
+}
+
+// S += what the branches of Prony series have in the frame.
+static void add_relaxed(const vsc_model *model, const vsc_material *material, const double *prony, size_t frame,
+                        vsc_wide S[6])
+{
+  vsc_wide relaxed[6];
+  if (material->branch_count == 0) return;
+  vsc_prony_stress(model, material, prony, frame, relaxed);
+  for (int i = 0; i < 6; i++) S[i] += relaxed[i];
 }
 
 // J sigma = sum_ab S_ab g_a (x) g_b + J p 1 of each frame; sigma = sum V (J sigma)/sum V J.
@@ -194,12 +199,7 @@ static pack_tensors stress_of(const vsc_patch_work *work, const vsc_model *model
                                           vsc_rest_stress(vsc_splat(work->material->rest_shear), J[q]));
     if (work->w != NULL) vsc_pack_axes(model, patch, k, q, state->v, rate);
     stress_on_frame(&in, g[q], work->w != NULL ? rate : NULL, S);
-    if (work->material->branch_count > 0) {
-      vsc_wide relaxed[6];
-      const size_t frame = patch->first_frame + place * (size_t)frames + (size_t)q;
-      vsc_prony_stress(model, work->material, state->prony, frame, relaxed);
-      for (int i = 0; i < 6; i++) S[i] += relaxed[i];
-    }
+    add_relaxed(model, work->material, state->prony, patch->first_frame + place * (size_t)frames + (size_t)q, S);
     in_deformed_frame(g[q], seen);
     add_products(V, S, seen, sum.fiber);
     add_products(V, S, g[q], sum.global);

@@ -90,14 +90,9 @@ const vsc_array *vsc_arrays_find(const vsc_arrays *arrays, const char *name)
 static const char *nearest_array(const vsc_arrays *arrays, const char *name)
 {
   const char *nearest = NULL;
-  size_t least = 0;
   for (size_t i = 0; i < arrays->count; i++) {
-    const char *candidate = arrays->items[i].name;
-    if (vsc_nearest(name, &candidate, 1) == NULL) continue;
-    const size_t distance = vsc_edit_distance(name, candidate);
-    if (nearest != NULL && distance >= least) continue;
-    nearest = candidate;
-    least = distance;
+    const char *const two[2] = {nearest != NULL ? nearest : arrays->items[i].name, arrays->items[i].name};
+    nearest = vsc_nearest(name, two, 2);
   }
   return nearest;
 }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/mem.h"
+#include "base/sort.h"
 #include "base/vec3.h"
 
 static const double POOR = 0.2;
@@ -161,12 +162,6 @@ static void add_element(const vsc_mesh *mesh, size_t element, const vsc_element_
   rank_element(mesh, element, quality, summary);
 }
 
-static int compare_doubles(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 vsc_status vsc_mesh_quality(const vsc_mesh *mesh, vsc_quality_summary *summary, vsc_error *error)
 {
   *summary = (vsc_quality_summary){.element_count = mesh->element_count};
@@ -181,7 +176,7 @@ vsc_status vsc_mesh_quality(const vsc_mesh *mesh, vsc_quality_summary *summary, 
     shapes[e] = quality.shape;
   }
   summary->shape_mean /= (double)mesh->element_count;
-  qsort(shapes, mesh->element_count, sizeof *shapes, compare_doubles);
+  qsort(shapes, mesh->element_count, sizeof *shapes, vsc_compare_doubles);
   summary->shape_p5 = shapes[(size_t)(PERCENTILE * (double)(mesh->element_count - 1))];
   vsc_free(shapes);
   return VSC_OK;

@@ -231,6 +231,9 @@ static uint64_t hash_loads(const vsc_model *model, uint64_t hash)
   return hash;
 }
 
+// What is hashed as a whole has nothing between its numbers, or, in the model's own arrays, zeros.
+_Static_assert(sizeof(vsc_solve_def) == 4 * sizeof(vsc_scheme) + 4 * sizeof(double), "solve_def is hashed as it lies");
+
 static void hash_model(vsc_model *model)
 {
   const size_t slots = VSC_WIDTH * model->pack_count;
@@ -243,7 +246,8 @@ static void hash_model(vsc_model *model)
   if (model->amplitude) hash = vsc_hash(hash, model->amplitude, slots * sizeof(double));
   if (model->delay) hash = vsc_hash(hash, model->delay, slots * sizeof(double));
   for (size_t m = 0; m < model->material_count; m++) {
-    vsc_material plain = model->materials[m];
+    vsc_material plain;
+    memcpy(&plain, &model->materials[m], sizeof plain);  // a copy by value need not keep what lies between its numbers
     memset(plain.name, 0, sizeof plain.name);
     hash = vsc_hash(hash, &plain.curve.hash, sizeof plain.curve.hash);
     memset(&plain.curve, 0, sizeof plain.curve);

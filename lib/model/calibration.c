@@ -14,42 +14,6 @@ static const char axis_letter[] = "fsn";
 
 // ---- moduli
 
-vsc_status vsc_moduli_isotropic(double E, double nu, vsc_moduli *moduli, vsc_error *error)
-{
-  if (!(nu > -1 && nu < 0.5))
-    return vsc_fail(error, VSC_INPUT,
-                    "Poisson's ratio %g: give one above -1 and below 0.5 (at 0.5: incompressible)",
-                    nu);
-  for (int a = 0; a < 3; a++) {
-    moduli->young[a] = E;
-    moduli->shear[a] = E / (2 * (1 + nu));
-    moduli->poisson[a] = nu;
-  }
-  return vsc_moduli_check(moduli, error);
-}
-
-// 4/D of numerics' closed form; it is 4 times the compliance's determinant on strains of no volume.
-static double triangle(const double a[3])
-{
-  double sum = 0;
-  for (int i = 0; i < 3; i++) sum += 2 * a[i] * a[(i + 1) % 3] - a[i] * a[i];
-  return sum;
-}
-
-static vsc_status check_triangle(const double young[3], const double a[3], vsc_error *error)
-{
-  int softest = 0;
-  for (int i = 1; i < 3; i++)
-    if (a[i] > a[softest]) softest = i;
-  if (triangle(a) > 1e-12 * a[softest] * a[softest]) return VSC_OK;
-  return vsc_fail(
-      error, VSC_INPUT,
-      "Young's modulus along %c, %g kPa: no incompressible material is so soft in one "
-      "direction beside %g and %g kPa in the others: 1/sqrt(Y) must be below the sum of "
-      "theirs",
-      axis_letter[softest], young[softest], young[(softest + 1) % 3], young[(softest + 2) % 3]);
-}
-
 static vsc_status check_positive(const char *what, const char *names, int width,
                                  const double value[3], vsc_error *error)
 {
@@ -67,28 +31,9 @@ static vsc_status check_young_and_shear(const vsc_moduli *moduli, vsc_error *err
   return check_positive("shear", "fssnnf", 2, moduli->shear, error);
 }
 
-vsc_status vsc_moduli_incompressible(double K, vsc_moduli *moduli, vsc_error *error)
-{
-  double a[3];
-  const vsc_status status = check_young_and_shear(moduli, error);
-  if (status != VSC_OK) return status;
-  for (int i = 0; i < 3; i++) {
-    a[i] = 1 / moduli->young[i] - 1 / (9 * K);
-    if (!(K > 0 && a[i] > 0))
-      return vsc_fail(error, VSC_INPUT,
-                      "volume modulus %g kPa: too small for a Young's modulus of %g kPa along %c; "
-                      "give some 100 times that for what is nearly incompressible",
-                      K, moduli->young[i], axis_letter[i]);
-  }
-  if (check_triangle(moduli->young, a, error) != VSC_OK) return VSC_INPUT;
-  for (int i = 0; i < 3; i++) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    moduli->poisson[i] = -moduli->young[i] * ((a[k] - a[i] - a[j]) / 2 + 1 / (9 * K));
-  }
-  return vsc_moduli_check(moduli, error);
-}
-
-vsc_status vsc_moduli_check(const vsc_moduli *moduli, vsc_error *error)
+// Refuses what no elastic material can have, naming the number: a modulus that is not above zero,
+// |nu_ab| >= sqrt(Y_a / Y_b), three ratios that together give energy away.
+static vsc_status check_moduli(const vsc_moduli *moduli, vsc_error *error)
 {
   const vsc_status status = check_young_and_shear(moduli, error);
   if (status != VSC_OK) return status;
@@ -114,6 +59,63 @@ vsc_status vsc_moduli_check(const vsc_moduli *moduli, vsc_error *error)
                   moduli->poisson[0], moduli->poisson[1], moduli->poisson[2], determinant);
 }
 
+vsc_status vsc_moduli_isotropic(double E, double nu, vsc_moduli *moduli, vsc_error *error)
+{
+  if (!(nu > -1 && nu < 0.5))
+    return vsc_fail(error, VSC_INPUT,
+                    "Poisson's ratio %g: give one above -1 and below 0.5 (at 0.5: incompressible)",
+                    nu);
+  for (int a = 0; a < 3; a++) {
+    moduli->young[a] = E;
+    moduli->shear[a] = E / (2 * (1 + nu));
+    moduli->poisson[a] = nu;
+  }
+  return check_moduli(moduli, error);
+}
+
+// 4/D of numerics' closed form; it is 4 times the compliance's determinant on strains of no volume.
+static double triangle(const double a[3])
+{
+  double sum = 0;
+  for (int i = 0; i < 3; i++) sum += 2 * a[i] * a[(i + 1) % 3] - a[i] * a[i];
+  return sum;
+}
+
+static vsc_status check_triangle(const double young[3], const double a[3], vsc_error *error)
+{
+  int softest = 0;
+  for (int i = 1; i < 3; i++)
+    if (a[i] > a[softest]) softest = i;
+  if (triangle(a) > 1e-12 * a[softest] * a[softest]) return VSC_OK;
+  return vsc_fail(
+      error, VSC_INPUT,
+      "Young's modulus along %c, %g kPa: no incompressible material is so soft in one "
+      "direction beside %g and %g kPa in the others: 1/sqrt(Y) must be below the sum of "
+      "theirs",
+      axis_letter[softest], young[softest], young[(softest + 1) % 3], young[(softest + 2) % 3]);
+}
+
+vsc_status vsc_moduli_incompressible(double K, vsc_moduli *moduli, vsc_error *error)
+{
+  double a[3];
+  const vsc_status status = check_young_and_shear(moduli, error);
+  if (status != VSC_OK) return status;
+  for (int i = 0; i < 3; i++) {
+    a[i] = 1 / moduli->young[i] - 1 / (9 * K);
+    if (!(K > 0 && a[i] > 0))
+      return vsc_fail(error, VSC_INPUT,
+                      "volume modulus %g kPa: too small for a Young's modulus of %g kPa along %c; "
+                      "give some 100 times that for what is nearly incompressible",
+                      K, moduli->young[i], axis_letter[i]);
+  }
+  if (check_triangle(moduli->young, a, error) != VSC_OK) return VSC_INPUT;
+  for (int i = 0; i < 3; i++) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    moduli->poisson[i] = -moduli->young[i] * ((a[k] - a[i] - a[j]) / 2 + 1 / (9 * K));
+  }
+  return check_moduli(moduli, error);
+}
+
 // Place of G_fs, G_sn, G_nf among the six.
 static const int shear_place[3] = {5, 3, 4};
 
@@ -126,18 +128,6 @@ void vsc_moduli_compliance(const vsc_moduli *moduli, double S[36])
     S[6 * a + b] = S[6 * b + a] = -moduli->poisson[a] / moduli->young[a];
     S[7 * g] = 1 / moduli->shear[a];
   }
-}
-
-vsc_moduli vsc_moduli_of(const double S[36])
-{
-  vsc_moduli moduli;
-  for (int a = 0; a < 3; a++) {
-    const vsc_named_direction d = vsc_direction(a), e = vsc_direction((a + 1) % 3);
-    moduli.young[a] = vsc_young(S, d.d);
-    moduli.shear[a] = vsc_shear(S, d.d, e.d);
-    moduli.poisson[a] = vsc_poisson(S, d.d, e.d);
-  }
-  return moduli;
 }
 
 vsc_status vsc_axial_incompressible(const double young[3], double axial[3], vsc_error *error)
@@ -190,7 +180,7 @@ static void make_relative(const gsl_matrix *L, double C[36])
 static vsc_status factor_wanted(const vsc_moduli *moduli, double factor[36], vsc_error *error)
 {
   double S[36];
-  vsc_status status = vsc_moduli_check(moduli, error);
+  vsc_status status = check_moduli(moduli, error);
   if (status != VSC_OK) return status;
   vsc_moduli_compliance(moduli, S);
   status = vsc_invert_six(S, factor, error);

@@ -23,15 +23,8 @@ vsc_status vsc_moduli_isotropic(double E, double nu, vsc_moduli *moduli, vsc_err
 // K is too small for them.
 vsc_status vsc_moduli_incompressible(double K, vsc_moduli *moduli, vsc_error *error);
 
-// Refuses what no elastic material can have, naming the number: a modulus that is not above zero,
-// |nu_ab| >= sqrt(Y_a / Y_b), three ratios that together give energy away.
-vsc_status vsc_moduli_check(const vsc_moduli *moduli, vsc_error *error);
-
-// The compliance; `moduli` must have passed vsc_moduli_check.
+// The compliance of moduli that an elastic material can have.
 void vsc_moduli_compliance(const vsc_moduli *moduli, double S[36]);
-
-// The same nine numbers of any compliance.
-vsc_moduli vsc_moduli_of(const double S[36]);
 
 // Springs: constants of a scene's material.
 typedef struct vsc_spring_constants {

@@ -116,6 +116,18 @@ double vsc_kept_volume_of(const vsc_model *model, size_t k, const double *x)
   return volume;
 }
 
+void vsc_kept_triangle(const vsc_model *model, size_t k, size_t t, const double *x, double at[3][3], double gradient[3][3])
+{
+  const vsc_kept_volumes *kept = &model->kept;
+  const double *origin = x + 4 * (size_t)kept->triangles[3 * kept->start[k]];
+  for (size_t c = 0; c < 3; c++) vsc_subtract(x + 4 * (size_t)kept->triangles[3 * t + c], origin, at[c]);
+  for (size_t c = 0; c < 3; c++) {
+    double across[3];
+    vsc_cross(at[(c + 1) % 3], at[(c + 2) % 3], across);
+    for (int i = 0; i < 3; i++) gradient[c][i] = kept->weights[t] * across[i] / 6;
+  }
+}
+
 static vsc_status check_freedom(const vsc_model *model, vsc_error *error)
 {
   size_t freedom = 0;

@@ -318,15 +318,15 @@ typedef struct vsc_model {
   double total_mass;    // mg, without what mass scaling has added
   vsc_scaled_mass scaled;
   double total_volume;  // mm^3
-  uint64_t hash;        // of everything above: two models with equal hashes move alike
+  uint64_t hash;        // of what moves it: two models with equal hashes move alike
 } vsc_model;
 
 // Builds the model of `definition` on `mesh` with the elements' `axes` (NULL: none are known, all elements are
 // passive with global axes; one frame for all points of an element will do). Nothing is kept of the arguments.
 // VSC_INPUT for what does not fit together: a region without material, a missing array, an empty set, a surface that
 // is not there, an active material without fibres, axes that are not orthonormal. The caller owns *model.
-vsc_status vsc_model_build(const vsc_mesh *mesh, const vsc_axes *axes,
-                           const vsc_definition *definition, vsc_model **model, vsc_error *error);
+vsc_status vsc_model_build(const vsc_mesh *mesh, const vsc_axes *axes, const vsc_definition *definition,
+                           vsc_model **model, vsc_error *error);
 
 // The same where `mesh` is the body at rest, and surfaces and node sets are meant of `shown`: the same mesh with its
 // nodes elsewhere.
@@ -370,15 +370,13 @@ static inline size_t vsc_nodes_offset(const vsc_model *model, uint32_t family)
 _Static_assert(offsetof(vsc_pack, node) == sizeof(vsc_frame), "a tet's pack is a frame and nodes");
 
 // Pack `k` (counted through all patches) of a patch: its frames (of cells only), and its nodes [corner][lane].
-static inline const vsc_frame *vsc_pack_frames(const vsc_model *model, const vsc_patch *patch,
-                                               size_t k)
+static inline const vsc_frame *vsc_pack_frames(const vsc_model *model, const vsc_patch *patch, size_t k)
 {
   return (const vsc_frame *)(model->store + patch->packs +
                              (k - patch->first_pack) * vsc_pack_size(model, patch->family));
 }
 
-static inline const uint16_t (*vsc_pack_nodes(const vsc_model *model, const vsc_patch *patch,
-                                              size_t k))[VSC_WIDTH]
+static inline const uint16_t (*vsc_pack_nodes(const vsc_model *model, const vsc_patch *patch, size_t k))[VSC_WIDTH]
 {
   return (const uint16_t(*)[VSC_WIDTH])(model->store + patch->packs +
                                         (k - patch->first_pack) *
@@ -386,8 +384,7 @@ static inline const uint16_t (*vsc_pack_nodes(const vsc_model *model, const vsc_
                                         vsc_nodes_offset(model, patch->family));
 }
 
-static inline const vsc_triangle_pack *vsc_triangles_of(const vsc_model *model,
-                                                        const vsc_patch *patch)
+static inline const vsc_triangle_pack *vsc_triangles_of(const vsc_model *model, const vsc_patch *patch)
 {
   return (const vsc_triangle_pack *)(model->store + patch->packs);
 }
@@ -422,15 +419,13 @@ static inline const void *vsc_pack_law_data(const vsc_model *model, const vsc_pa
   return model->store + patch->law_data + (k - patch->first_pack) * bytes;
 }
 
-static inline const vsc_mixture *vsc_pack_mixture(const vsc_model *model, const vsc_patch *patch,
-                                                  size_t k)
+static inline const vsc_mixture *vsc_pack_mixture(const vsc_model *model, const vsc_patch *patch, size_t k)
 {
   return (const vsc_mixture *)(model->store + patch->mixtures) + (k - patch->first_pack);
 }
 
 // What smoothed tets have; only where the patch is smoothed.
-static inline const vsc_smoothed_pack *vsc_pack_smoothed(const vsc_model *model,
-                                                         const vsc_patch *patch, size_t k)
+static inline const vsc_smoothed_pack *vsc_pack_smoothed(const vsc_model *model, const vsc_patch *patch, size_t k)
 {
   return (const vsc_smoothed_pack *)(model->store + patch->smoothed) + (k - patch->first_pack);
 }
@@ -479,19 +474,21 @@ void vsc_supports_place(const vsc_model *model, double time, double load, double
 // Kept volume k at positions x (node_count x 4), mm^3.
 double vsc_kept_volume_of(const vsc_model *model, size_t k, const double *x);
 
+// The corners of triangle t of kept volume k at positions x, seen from the volume's first node (mm; its surface is closed,
+// so that the origin does not count), and what they add to the gradient of the volume: d(w (a x b) . c/6)/da = w (b x c)/6,
+// mm^2.
+void vsc_kept_triangle(const vsc_model *model, size_t k, size_t t, const double *x, double at[3][3], double gradient[3][3]);
+
 // Where an obstacle is at `time`: its point or centre, mm.
 void vsc_obstacle_place(const vsc_obstacle *obstacle, double time, double point[3]);
 
 // How far `x` is outside an obstacle whose point is at `point` (below 0: inside), mm, and the unit vector out of it.
-double vsc_obstacle_gap(const vsc_obstacle *obstacle, const double point[3], const double x[3],
-                        double normal[3]);
+double vsc_obstacle_gap(const vsc_obstacle *obstacle, const double point[3], const double x[3], double normal[3]);
 
 // Activation of slot `slot` of `material` at `time`: amplitude . curve(time - delay).
-double vsc_model_activation(const vsc_model *model, const vsc_material *material, size_t slot,
-                            double time);
+double vsc_model_activation(const vsc_model *model, const vsc_material *material, size_t slot, double time);
 
 // The same of an edge frame, with the means of its tets' amplitudes and delays.
-double vsc_model_edge_activation(const vsc_model *model, const vsc_material *material, size_t edge,
-                                 double time);
+double vsc_model_edge_activation(const vsc_model *model, const vsc_material *material, size_t edge, double time);
 
 #endif

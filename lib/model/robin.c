@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/sort.h"
 #include "base/vec3.h"
 
 // The facets, and the sorted list of pairs of nodes (row << 32 | column) of the matrix's blocks.
@@ -29,18 +30,6 @@ static uint64_t pair_of(uint32_t row, uint32_t column)
   return (uint64_t)row << 32 | column;
 }
 
-static int compare_pairs(const void *a, const void *b)
-{
-  const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
-  return (x > y) - (x < y);
-}
-
-static int compare_nodes(const void *a, const void *b)
-{
-  const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-  return (x > y) - (x < y);
-}
-
 static bool list_pairs(assembly *a)
 {
   const size_t nodes = (size_t)a->rule.nodes;
@@ -52,7 +41,7 @@ static bool list_pairs(assembly *a)
     for (size_t i = 0; i < nodes; i++)
       for (size_t j = 0; j < nodes; j++) a->pairs[a->pair_count++] = pair_of(node[i], node[j]);
   }
-  qsort(a->pairs, a->pair_count, sizeof *a->pairs, compare_pairs);
+  qsort(a->pairs, a->pair_count, sizeof *a->pairs, vsc_compare_uint64);
   size_t kept = 0;
   for (size_t k = 0; k < a->pair_count; k++)
     if (kept == 0 || a->pairs[kept - 1] != a->pairs[k]) a->pairs[kept++] = a->pairs[k];
@@ -77,7 +66,7 @@ static bool list_rows(const assembly *a, vsc_robin *robin)
   robin->start[rows] = (uint32_t)a->pair_count;
   for (size_t k = 0; k < a->pair_count; k++) {
     const uint32_t column = (uint32_t)a->pairs[k];
-    const uint32_t *row = bsearch(&column, robin->nodes, rows, sizeof column, compare_nodes);
+    const uint32_t *row = bsearch(&column, robin->nodes, rows, sizeof column, vsc_compare_uint32);
     robin->columns[k] = (uint32_t)(row - robin->nodes);
   }
   return true;
@@ -103,7 +92,7 @@ static void add_block(const assembly *a, uint32_t row, uint32_t column, const do
 {
   const uint64_t pair = pair_of(row, column);
   const uint64_t *found =
-      bsearch(&pair, a->pairs, a->pair_count, sizeof *a->pairs, compare_pairs);
+      bsearch(&pair, a->pairs, a->pair_count, sizeof *a->pairs, vsc_compare_uint64);
   double *block = robin->blocks + 12 * (size_t)(found - a->pairs);
   for (int c = 0; c < 3; c++)
     for (int r = 0; r < 3; r++) block[4 * c + r] += W[3 * r + c];

@@ -23,10 +23,10 @@
 #define LOOKS_PER_PERIOD 16
 #define SAME_TIME 1e-12   // part of a time by which multiples of intervals differ by rounding
 
-static void name_of_scene(const char *file, char name[VSC_NAME])
+void vsc_run_name(const char *file, char *name, size_t size)
 {
   const char *slash = strrchr(file, '/');
-  vsc_copy_name(name, slash ? slash + 1 : file);
+  snprintf(name, size, "%s", slash ? slash + 1 : file);
   char *dot = strrchr(name, '.');
   if (dot != NULL && dot != name) *dot = '\0';
 }
@@ -458,7 +458,7 @@ vsc_status vsc_run(vsc_problem *problem, const vsc_run_options *options, vsc_run
   job.start_wall = vsc_wall_seconds();
   job.start_cpu = vsc_cpu_seconds();
   *result = (vsc_run_result){0};
-  name_of_scene(problem->scene->file, job.name);
+  vsc_run_name(problem->scene->file, job.name, sizeof job.name);
   vsc_status status = start(&job, error);
   job.begun_seconds = vsc_wall_seconds() - job.start_wall - job.output_seconds;
   if (status == VSC_OK) {

@@ -9,7 +9,7 @@
 
 #include "run/problem.h"
 
-// Called after each row of signals: simulated time and end (ms), wall seconds since the start.
+// Called after each look at the energy (stop_time below), often between two rows of signals: simulated time and end (ms), wall seconds since the start.
 typedef void vsc_progress(void *context, double time, double end, double wall_seconds);
 
 typedef struct vsc_run_options {
@@ -21,6 +21,9 @@ typedef struct vsc_run_options {
   vsc_progress *progress;  // may be NULL
   void *progress_context;
 } vsc_run_options;
+
+// The name of a scene's file without folder and ending, of at most size - 1 bytes: that of a run's files.
+void vsc_run_name(const char *file, char *name, size_t size);
 
 // What a run has done.
 typedef struct vsc_run_result {

@@ -74,12 +74,34 @@ static void write_unloaded(const vsc_problem *problem, FILE *file)
   write_number(file, "prestress_rest_to_mesh_mm", unloaded->furthest, ",");
 }
 
+// What the run has cost.
+static void write_seconds(const vsc_job *job, const vsc_run_result *result, FILE *file)
+{
+  write_number(file, "input_seconds", job->problem->input_seconds, ",");
+  write_number(file, "build_seconds", job->problem->build_seconds, ",");
+  write_number(file, "begin_seconds", job->begun_seconds, ",");
+  write_number(file, "output_seconds", result->output_seconds, ",");
+  write_number(file, "frame_cpu_seconds", result->frame_cpu_seconds, ",");
+  write_number(file, "wall_seconds", result->wall_seconds, ",");
+  write_number(file, "cpu_seconds", result->cpu_seconds, ",");
+  write_number(file, "element_updates_per_cpu_second", result->updates_per_second, ",");
+}
+
+static void write_signals(const vsc_watch *watch, FILE *file)
+{
+  fprintf(file, "  \"signals\": {\n");
+  for (size_t k = 0; k < watch->signal_count; k++)
+    if (isfinite(watch->low[k]) && isfinite(watch->high[k]))
+      fprintf(file, "    \"%s\": {\"min\": %.10g, \"max\": %.10g},\n", watch->names[k],
+              watch->low[k], watch->high[k]);
+  fprintf(file, "    \"rows\": %.0f\n  }\n", watch->rows);
+}
+
 static void write_body(const vsc_job *job, const vsc_run_result *result, const char *failure,
                        FILE *file)
 {
   const vsc_problem *problem = job->problem;
   const vsc_model *model = problem->model;
-  const vsc_watch *watch = job->watch;
   write_string(file, "program", "viscera " VISCERA_VERSION, ",");
   write_string(file, "scene", problem->scene->file, ",");
   write_string(file, "mesh", problem->scene->mesh_file, ",");
@@ -124,20 +146,8 @@ static void write_body(const vsc_job *job, const vsc_run_result *result, const c
   write_number(file, "most_inverted_elements", job->most_inverted, ",");
   write_number(file, "most_frames_beyond_exponent", job->most_continued, ",");
   write_number(file, "frames", (double)result->frames, ",");
-  write_number(file, "input_seconds", problem->input_seconds, ",");
-  write_number(file, "build_seconds", problem->build_seconds, ",");
-  write_number(file, "begin_seconds", job->begun_seconds, ",");
-  write_number(file, "output_seconds", result->output_seconds, ",");
-  write_number(file, "frame_cpu_seconds", result->frame_cpu_seconds, ",");
-  write_number(file, "wall_seconds", result->wall_seconds, ",");
-  write_number(file, "cpu_seconds", result->cpu_seconds, ",");
-  write_number(file, "element_updates_per_cpu_second", result->updates_per_second, ",");
-  fprintf(file, "  \"signals\": {\n");
-  for (size_t k = 0; k < watch->signal_count; k++)
-    if (isfinite(watch->low[k]) && isfinite(watch->high[k]))
-      fprintf(file, "    \"%s\": {\"min\": %.10g, \"max\": %.10g},\n", watch->names[k],
-              watch->low[k], watch->high[k]);
-  fprintf(file, "    \"rows\": %.0f\n  }\n", watch->rows);
+  write_seconds(job, result, file);
+  write_signals(job->watch, file);
 }
 
 vsc_status vsc_job_summarize(const vsc_job *job, const vsc_run_result *result, const char *failure,

@@ -31,7 +31,7 @@ typedef struct vsc_watch {
   double values[VSC_SIGNALS];                  // the last row
   double low[VSC_SIGNALS], high[VSC_SIGNALS];  // over all rows
   double rows;
-  double balance;       // balance error of the last row, uJ
+  double balance;       // balance error of the last look, uJ
   double energy_scale;  // largest energy or work seen, uJ
   bool settles;         // looks are as close as they get: jumps of supports are settled (vsc_watch_observe)
 } vsc_watch;
@@ -40,10 +40,11 @@ typedef struct vsc_watch {
 vsc_status vsc_watch_open(const vsc_problem *problem, const char *file, double keep_until,
                           vsc_watch **watch, vsc_error *error);
 
-// Observes the state and carries the energy ledger on. VSC_NUMERICAL when the energy balance has
-// jumped by more than 5 % of the largest energy seen (at least that of 3 % strain everywhere): the
-// simulation is coming apart although all numbers are finite. Law PAPER, which makes energy, and a
-// forced step are not held to it. With watch->settles: where the speed of a support jumps in damped tissue, what was
+// Observes the state and carries the energy ledger on. VSC_NUMERICAL, since the simulation is coming apart although all
+// numbers are finite, when since the last look the energy balance has jumped by more than 5 % of the largest energy or
+// work seen (at least that of 3 % strain everywhere), when it is off by more than 10 % of that in all, or when an element
+// has more than 1000 times its volume at rest (inside out, too). Only explicit steps are held to the balance, and of these
+// not law PAPER, which makes energy, and a forced step. With watch->settles: where the speed of a support jumps in damped tissue, what was
 // dissipated since the last look is taken from the balance if the ledger's trapezoid is off by more than that.
 vsc_status vsc_watch_observe(const vsc_problem *problem, vsc_state *state, vsc_watch *watch,
                              vsc_error *error);

@@ -107,6 +107,20 @@ static uint32_t smallest_at(const vsc_model *model, const double *x)
   return element;
 }
 
+// Takes x, in balance at `time` after an increment of `step`, into the state.
+static void accept(const vsc_model *model, vsc_state *state, const double *x, double time, double step)
+{
+  vsc_newton *newton = state->solver;
+  memcpy(state->former_x, state->x, 4 * model->node_count * sizeof *x);
+  memcpy(state->x, x, 4 * model->node_count * sizeof *x);
+  if (model->branch_count > 0) vsc_prony_step(model, state, INFINITY);
+  vsc_kept_give(newton->kept, state);
+  state->former_step = step;
+  state->time = time;
+  vsc_touch_reckon(newton->touch, state, step);
+  vsc_moving_reckon(model, state, newton->r, state->scratch.load, step);
+}
+
 vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double until,
                               vsc_error *error)
 {
@@ -133,14 +147,7 @@ vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double u
                        "at %.6g ms no equilibrium was found: supports move so far that elements turn inside out, "
                        "element %u most; take a smaller motion", s.time, smallest_at(model, x));
     if (status == VSC_OK) {
-      memcpy(state->former_x, state->x, 4 * model->node_count * sizeof *x);
-      memcpy(state->x, x, 4 * model->node_count * sizeof *x);
-      if (model->branch_count > 0) vsc_prony_step(model, state, INFINITY);
-      vsc_kept_give(newton->kept, state);
-      state->former_step = (next - done) * way;
-      state->time = next == 1 ? until : s.time;
-      vsc_touch_reckon(newton->touch, state, state->former_step);
-      vsc_moving_reckon(model, state, newton->r, state->scratch.load, state->former_step);
+      accept(model, state, x, next == 1 ? until : s.time, (next - done) * way);
       done = next;
       increment *= iterations <= QUICK ? LONGER : 1;
       continue;

@@ -81,6 +81,9 @@ static vsc_status first_acceleration(const vsc_model *model, vsc_state *state, v
   vsc_kept_advance(newton->kept, 1);
   vsc_kept_give(newton->kept, state);
   vsc_linear_forget(newton->linear);
+  if (status == VSC_OK && vsc_linear_counted(newton->linear).unfinished > 0)
+    return vsc_fail(error, VSC_NUMERICAL, "the accelerations at the start were not found: masses are too unequal; use masses: "
+                    "lumped, or a better mesh");
   return status;
 }
 

@@ -125,24 +125,18 @@ static vsc_status open_keeper(const vsc_model *model, vsc_state *state, vsc_erro
 
 // ---- gradients and the matrix
 
-// g_k at positions x: d(w (a x b) . c / 6)/da = w (b x c)/6, seen from the volume's first node.
+// g_k at positions x, node by node of each volume.
 static void find_gradients(const vsc_model *model, keeper *k, const double *x)
 {
   const vsc_kept_volumes *kept = &model->kept;
   memset(k->gradient, 0, 3 * k->first[kept->count] * sizeof *k->gradient);
-  for (size_t v = 0; v < kept->count; v++) {
-    const double *origin = x + 4 * (size_t)k->node[k->first[v]];
+  for (size_t v = 0; v < kept->count; v++)
     for (size_t t = kept->start[v]; t < kept->start[v + 1]; t++) {
-      double at[3][3], across[3];
-      for (int c = 0; c < 3; c++)
-        vsc_subtract(x + 4 * (size_t)kept->triangles[3 * t + (size_t)c], origin, at[c]);
-      for (int c = 0; c < 3; c++) {
-        double *g = k->gradient + 3 * (k->first[v] + k->slot[3 * t + (size_t)c]);
-        vsc_cross(at[(c + 1) % 3], at[(c + 2) % 3], across);
-        for (int i = 0; i < 3; i++) g[i] += kept->weights[t] * across[i] / 6;
-      }
+      double at[3][3], part[3][3];
+      vsc_kept_triangle(model, v, t, x, at, part);
+      for (size_t c = 0; c < 3; c++)
+        for (size_t i = 0; i < 3; i++) k->gradient[3 * (k->first[v] + k->slot[3 * t + c]) + i] += part[c][i];
     }
-  }
 }
 
 static bool is_stopped(const vsc_state *state, uint32_t node)

@@ -62,29 +62,17 @@ void vsc_kept_give(const vsc_kept_balance *kept, vsc_state *state)
 
 // ---- volumes and their derivatives
 
-// The corners of a triangle of volume k, seen from the volume's first node, where it is at x.
-static const uint32_t *corners_of(const vsc_model *model, size_t k, size_t triangle, const double *x, double at[3][3])
-{
-  const vsc_kept_volumes *kept = &model->kept;
-  const uint32_t *node = kept->triangles + 3 * triangle;
-  const double *origin = x + 4 * (size_t)kept->triangles[3 * kept->start[k]];
-  for (int c = 0; c < 3; c++) vsc_subtract(x + 4 * (size_t)node[c], origin, at[c]);
-  return node;
-}
-
-// g_k of all volumes: d(w (a x b) . c/6)/da = w (b x c)/6; the surface is closed, so the origin does not count.
+// g_k of all volumes, on all nodes.
 static void find_gradients(const vsc_model *model, const double *x, double *gradient)
 {
   const vsc_kept_volumes *kept = &model->kept;
   memset(gradient, 0, 4 * kept->count * model->node_count * sizeof *gradient);
   for (size_t k = 0; k < kept->count; k++, gradient += 4 * model->node_count)
     for (size_t t = kept->start[k]; t < kept->start[k + 1]; t++) {
-      double at[3][3], across[3];
-      const uint32_t *node = corners_of(model, k, t, x, at);
-      for (int c = 0; c < 3; c++) {
-        vsc_cross(at[(c + 1) % 3], at[(c + 2) % 3], across);
-        for (size_t i = 0; i < 3; i++) gradient[4 * (size_t)node[c] + i] += kept->weights[t] * across[i] / 6;
-      }
+      double at[3][3], part[3][3];
+      vsc_kept_triangle(model, k, t, x, at, part);
+      for (size_t c = 0; c < 3; c++)
+        for (size_t i = 0; i < 3; i++) gradient[4 * (size_t)kept->triangles[3 * t + c] + i] += part[c][i];
     }
 }
 
@@ -104,8 +92,9 @@ void vsc_kept_add_tangent(const vsc_kept_balance *kept, const double *x, double 
   const vsc_kept_volumes *volumes = &kept->model->kept;
   for (size_t k = 0; k < volumes->count; k++)
     for (size_t t = volumes->start[k]; t < volumes->start[k + 1]; t++) {
-      double at[3][3];
-      const uint32_t *node = corners_of(kept->model, k, t, x, at);
+      const uint32_t *node = volumes->triangles + 3 * t;
+      double at[3][3], gradient[3][3];
+      vsc_kept_triangle(kept->model, k, t, x, at, gradient);
       const double part = -factor * kept->pressure[k] * volumes->weights[t] / 6;
       for (int c = 0; c < 3; c++) {
         const int next = (c + 1) % 3, last = (c + 2) % 3;
@@ -137,8 +126,9 @@ void vsc_kept_look_moving(vsc_kept_balance *kept, const double *x, const double 
   for (size_t k = 0; k < volumes->count; k++) {
     kept->defect[k] = 0;
     for (size_t t = volumes->start[k]; t < volumes->start[k + 1]; t++) {
-      double at[3][3], across[3];
-      const uint32_t *node = corners_of(kept->model, k, t, x, at);
+      const uint32_t *node = volumes->triangles + 3 * t;
+      double at[3][3], gradient[3][3], across[3];
+      vsc_kept_triangle(kept->model, k, t, x, at, gradient);
       // d^2 (a x b) . c = 2 (da x db . c + db x dc . a + dc x da . b)
       for (int c = 0; c < 3; c++) {
         vsc_cross(v + 4 * (size_t)node[c], v + 4 * (size_t)node[(c + 1) % 3], across);

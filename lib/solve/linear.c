@@ -374,7 +374,9 @@ static bool solve_plainly(vsc_linear *linear, vsc_tangent *tangent, const double
       iterate(linear, tangent, free, b, tolerance, fmin(linear->past.plain_left, MOST_PLAIN), d);
   linear->past.plain_left -= linear->counts.iterations - before;
   *indefinite = end == NEGATIVE;
-  return end == CONVERGED || linear->past.plain_left == INFINITY;
+  const bool last = linear->past.plain_left == INFINITY;
+  linear->counts.unfinished += last && end != CONVERGED;
+  return last || end == CONVERGED;
 }
 
 // What a factorisation costs, in iterations.
@@ -421,6 +423,7 @@ vsc_status vsc_linear_solve(vsc_linear *linear, vsc_tangent *tangent, const doub
   const outcome end = iterate(linear, tangent, free, b, tolerance, MOST_ITERATIONS, d);
   if (end == NO_MEMORY) return vsc_fail_memory(error, "the linear solver");
   *indefinite = end == NEGATIVE;
+  linear->counts.unfinished += end != CONVERGED;
   linear->past.rate = (linear->counts.iterations - before) / -log10(tolerance);
   return VSC_OK;
 }

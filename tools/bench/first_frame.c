@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "base/parallel.h"
+#include "base/sort.h"
 #include "tools/beside.h"
 #include "tools/bench/machine.h"
 #include "tools/results.h"
@@ -92,15 +93,9 @@ static vsc_status time_run(const wish *wish, char **words, start *taken, vsc_err
   return VSC_OK;
 }
 
-static int compare_numbers(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 static void say_spread(const char *what, double *values, int count)
 {
-  qsort(values, (size_t)count, sizeof *values, compare_numbers);
+  qsort(values, (size_t)count, sizeof *values, vsc_compare_doubles);
   printf("  %-46s %8.3f %8.3f %8.3f\n", what, values[0], values[count / 2], values[count - 1]);
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/mem.h"
 #include "base/parallel.h"
+#include "base/sort.h"
 #include "run/problem.h"
 #include "solve/explicit.h"
 #include "tools/shapes_block.h"
@@ -46,12 +47,6 @@ static vsc_material_def tissue(vsc_law law)
   return material;
 }
 
-static int by_key(const void *a, const void *b)
-{
-  const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
-  return (x > y) - (x < y);
-}
-
 // Edges of the mesh, and the four main diagonals of each hexahedron.
 static size_t classical_springs(const vsc_mesh *mesh)
 {
@@ -67,7 +62,7 @@ static size_t classical_springs(const vsc_mesh *mesh)
     }
     if (mesh->kinds[e] == VSC_HEX) diagonals += 4;
   }
-  qsort(edges, count, sizeof *edges, by_key);
+  qsort(edges, count, sizeof *edges, vsc_compare_uint64);
   for (size_t k = 0; k < count; k++) different += k == 0 || edges[k] != edges[k - 1];
   vsc_free(edges);
   return different + diagonals;

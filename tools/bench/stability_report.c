@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/sort.h"
 #include "io/replace.h"
 
 static void write_text(FILE *file, const char *text)
@@ -91,12 +92,6 @@ static void say_messages(const vsc_stability_row *rows, size_t count, vsc_verdic
 
 // ---- steps
 
-static int compare_numbers(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 static bool has_steps(const vsc_verdict *v)
 {
   return v->claimed > 0 && isfinite(v->limit);
@@ -122,7 +117,7 @@ static void say_steps(const vsc_stability_row *rows, size_t count)
         printf("  %s: estimated %g, true %g ms, times %.3g below, times %.3g above\n", rows[k].of.name,
                rows[k].verdict.claimed, rows[k].verdict.limit, rows[k].verdict.below, rows[k].verdict.above);
     }
-  qsort(part, found, sizeof *part, compare_numbers);
+  qsort(part, found, sizeof *part, vsc_compare_doubles);
   if (found > 0)
     printf("\nestimated over true stable step (before safety, by which it is multiplied), %zu cases:\n"
            "  least %.3f, a tenth below %.3f, half below %.3f, nine tenths below %.3f, most %.3f; above 1: %zu\n"

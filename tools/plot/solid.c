@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/sort.h"
 #include "base/vec3.h"
 #include "mesh/surface.h"
 
@@ -55,12 +56,6 @@ static uint64_t key(uint32_t a, uint32_t b)
   return a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a;
 }
 
-static int by_key(const void *a, const void *b)
-{
-  const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
-  return (x > y) - (x < y);
-}
-
 static bool list_edges(picture *p)
 {
   const vsc_mesh *mesh = p->solid->mesh;
@@ -80,7 +75,7 @@ static bool list_edges(picture *p)
     for (size_t c = 0; c < 3 * mesh->triangle_count; c++)
       p->edges[p->edge_count++] =
           key(mesh->triangles[c], mesh->triangles[c % 3 == 2 ? c - 2 : c + 1]);
-  qsort(p->edges, p->edge_count, sizeof *p->edges, by_key);
+  qsort(p->edges, p->edge_count, sizeof *p->edges, vsc_compare_uint64);
   return true;
 }
 
@@ -129,7 +124,7 @@ static void draw_triangle(const picture *p, const uint32_t nodes[3])
   vsc_raster_triangle(p->raster, corner, KIND_FACE, shade, p->solid);
   for (int i = 0; i < 3; i++) {
     const uint64_t edge = key(nodes[i], nodes[(i + 1) % 3]);
-    if (bsearch(&edge, p->edges, p->edge_count, sizeof edge, by_key) != NULL)
+    if (bsearch(&edge, p->edges, p->edge_count, sizeof edge, vsc_compare_uint64) != NULL)
       draw_edge(p, &corner[i], &corner[(i + 1) % 3]);
   }
 }
