@@ -256,7 +256,7 @@ static void write_list(const vsc_pvd *pvd, FILE *stream)
   fputs("<?xml version=\"1.0\"?>\n"
         "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
         "  <Collection>\n", stream);
-  fwrite(pvd->text, 1, pvd->text_size, stream);
+  if (pvd->count > 0) fwrite(pvd->text, 1, pvd->text_size, stream);
   fputs("  </Collection>\n</VTKFile>\n", stream);
 }
 
