@@ -36,18 +36,24 @@ static void command_of(char *command, size_t size, const char *run, const char *
            "times: [0 ms, %g ms, %g ms], values: [0, 0, 1]}}]' %s", run, begin, end, more);
 }
 
+// Runs the block to where it is torn, and another to `stop` ms just before.
+static void tear(const char *torn, const char *whole, const char *more, double begin, double end, double stop)
+{
+  char command[1024], options[512];
+  command_of(command, sizeof command, torn, more, begin, end);
+  assert_int_equal(shell(command), 3);
+  snprintf(options, sizeof options, "%s --stop '%g ms'", more, stop);
+  command_of(command, sizeof command, whole, options, begin, end);
+  must(command);
+}
+
 // Torn right behind the end of a cycle of which there is no row: that end is not lost.
 static void test_a_cycle_that_has_ended(void **state)
 {
   (void)state;
   static const char cycles[] = "--set 'time={end: 20 ms, cycle: 5 ms, cycle_tolerance: 1e-9}' "
                                "--set 'output={frames: 20 ms, signals: 20 ms}'";
-  char command[1024], options[256];
-  command_of(command, sizeof command, "torn", cycles, 10, 10.2);
-  assert_int_equal(shell(command), 3);
-  snprintf(options, sizeof options, "%s --stop '10 ms'", cycles);
-  command_of(command, sizeof command, "ended", options, 10, 10.2);
-  must(command);
+  tear("torn", "ended", cycles, 10, 10.2, 10);
   assert_string_equal(summary("ended", "cycles"), "2");
   assert_string_equal(summary("torn", "cycles"), "2");
   assert_same_block("torn", "ended", "last_cycle", 2 * NODES, 4);
@@ -59,12 +65,7 @@ static void test_multipliers(void **state)
   (void)state;
   static const char rest[] = "--set solve=equilibrium --set solver.incompressible=1e-5 --set 'materials[0].active.kind=none'"
                              " --set 'gravity=[0 m/s2, 0 m/s2, -9.81 m/s2]' --set 'time.end=8 ms'";
-  char command[1024], options[512];
-  command_of(command, sizeof command, "crushed", rest, 4, 4.5);
-  assert_int_equal(shell(command), 3);
-  snprintf(options, sizeof options, "%s --stop '4 ms'", rest);
-  command_of(command, sizeof command, "sound", options, 4, 4.5);
-  must(command);
+  tear("crushed", "sound", rest, 4, 4.5, 4);
   assert_string_equal(summary("crushed", "time_s"), "0.004");
   assert_same_block("crushed", "sound", "position", NODES, 4);
   assert_same_block("crushed", "sound", "node_multipliers", NODES, 1);

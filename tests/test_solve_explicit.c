@@ -446,7 +446,6 @@ static void test_a_step_is_refused_in_time(void **state)
   assert_int_equal(vsc_advance(body.model, body.state, 100, &error), VSC_NUMERICAL);
   assert_non_null(strstr(error.text, "too stiff for time.step"));
   const double stable = body.state->limit.step;
-  print_message("%g ms: %g of %g ms\n", body.state->time, stable, body.definition.step);
   assert_true(stable < body.definition.step && stable > 0.95 * body.definition.step);
   body_close(&body);
 }

@@ -16,6 +16,9 @@ static void sections_are_listed_and_others_refused(void **state)
   assert_int_equal(shell("$V bench growth --csv no/such/folder.csv"), 2);
   assert_non_null(strstr(complained, "cannot be written"));
   must("$V bench error --help");
+  assert_int_equal(shell("$V bench error --only speed -o none"), 2);
+  assert_non_null(strstr(complained, "--only speed: there are the tables time, space and real_time"));
+  assert_int_equal(shell("test -e none"), 1);
 }
 
 // Every kind has about as many elements as it is asked for, in a cube of 1 mm edges; a step of each costs

@@ -23,6 +23,16 @@ static void the_ventricles_are_understood(void **state)
   assert_holds(complained, "inside");
 }
 
+// Mass makes the real-time heart's steps as long as it says.
+static void the_heart_in_real_time_is_understood(void **state)
+{
+  (void)state;
+  must("$V generate lv --around 16 --along 10 -o heart.vtu");
+  must("$V check " SCENES "real_time.yaml --set mesh.file=$PWD/heart.vtu");
+  assert_holds(line_of("mass"), "for steps of 0.32 ms");
+  assert_holds(line_of("warnings"), "none");
+}
+
 // Ten cubes of five quadratic tets: 4.1695 mm, within 2 %.
 static void the_beam_bends_as_published(void **state)
 {
@@ -39,6 +49,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_ventricles_are_understood),
+      cmocka_unit_test(the_heart_in_real_time_is_understood),
       cmocka_unit_test(the_beam_bends_as_published),
   };
   return cmocka_run_group_tests(tests, program_open, program_close);

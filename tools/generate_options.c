@@ -2,6 +2,7 @@
 #include "tools/generate_options.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -264,54 +265,51 @@ static bool read_bricks(vsc_generate_wish *wish, int option, const char *text)
   return true;
 }
 
+// Options of any one number, and where it goes.
+static const struct {
+  int option;
+  size_t offset;
+} numbers[] = {
+    {ENDO_RADIUS, offsetof(vsc_generate_wish, lv.endo_radius)},
+    {ENDO_LENGTH, offsetof(vsc_generate_wish, lv.endo_length)},
+    {EPI_RADIUS, offsetof(vsc_generate_wish, lv.epi_radius)},
+    {EPI_LENGTH, offsetof(vsc_generate_wish, lv.epi_length)},
+    {BASE, offsetof(vsc_generate_wish, lv.base)},
+    {BASE_RISE, offsetof(vsc_generate_wish, lv.base_rise)},
+    {BEND, offsetof(vsc_generate_wish, bend)},
+    {TWIST, offsetof(vsc_generate_wish, twist)},
+    {INNER, offsetof(vsc_generate_wish, shell.inner)},
+    {OUTER, offsetof(vsc_generate_wish, shell.outer)},
+    {RADIUS, offsetof(vsc_generate_wish, tube.radius)},
+    {ENDO_ANGLE, offsetof(vsc_generate_wish, endo_angle)},
+    {EPI_ANGLE, offsetof(vsc_generate_wish, epi_angle)},
+    {JITTER, offsetof(vsc_generate_wish, block.jitter)},
+};
+
 bool vsc_generate_option(vsc_generate_wish *wish, int option, const char *text)
 {
   size_t count = 0;
   bool good;
   wish->given |= UINT64_C(1) << (option - ENDO_RADIUS);
+  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
+    if (numbers[k].option == option) return read_numbers(text, (double *)((char *)wish + numbers[k].offset), 1);
   switch (option) {
-    case ENDO_RADIUS:
-      return read_numbers(text, &wish->lv.endo_radius, 1);
-    case ENDO_LENGTH:
-      return read_numbers(text, &wish->lv.endo_length, 1);
-    case EPI_RADIUS:
-      return read_numbers(text, &wish->lv.epi_radius, 1);
-    case EPI_LENGTH:
-      return read_numbers(text, &wish->lv.epi_length, 1);
-    case BASE:
-      return read_numbers(text, &wish->lv.base, 1);
     case AROUND:
     case ALONG:
     case LAYERS:
       return read_bricks(wish, option, text);
     case LIKE:
       return read_like(text, &wish->lv);
-    case BASE_RISE:
-      return read_numbers(text, &wish->lv.base_rise, 1);
     case ALONG_X:
       return wish->lv.along_x = true;
     case SURFACES:
       return wish->lv.surfaces = true;
     case THICKNESS:
       return read_numbers(text, &wish->thickness, 1) && wish->thickness > 0;
-    case BEND:
-      return read_numbers(text, &wish->bend, 1);
-    case TWIST:
-      return read_numbers(text, &wish->twist, 1);
-    case INNER:
-      return read_numbers(text, &wish->shell.inner, 1);
-    case OUTER:
-      return read_numbers(text, &wish->shell.outer, 1);
-    case RADIUS:
-      return read_numbers(text, &wish->tube.radius, 1);
     case LENGTH:
       good = read_numbers(text, &wish->tube.length, 1);
       wish->shell.length = wish->tube.length;
       return good;
-    case ENDO_ANGLE:
-      return read_numbers(text, &wish->endo_angle, 1);
-    case EPI_ANGLE:
-      return read_numbers(text, &wish->epi_angle, 1);
     case SPACING:
       return read_numbers(text, &wish->spacing, 1) && wish->spacing > 0;
     case CELLS:
@@ -320,8 +318,6 @@ bool vsc_generate_option(vsc_generate_wish *wish, int option, const char *text)
     case SIZE:
       wish->size_numbers = read_numbers(text, wish->block.size, 3) ? 3 : 2;
       return wish->size_numbers == 3 || read_numbers(text, wish->block.size, 2);
-    case JITTER:
-      return read_numbers(text, &wish->block.jitter, 1);
     case TETS:
       good = read_counts(text, &count, 1);
       wish->block.tets_per_cell = (int)count;

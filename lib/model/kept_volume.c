@@ -121,7 +121,7 @@ void vsc_kept_triangle(const vsc_model *model, size_t k, size_t t, const double 
   const vsc_kept_volumes *kept = &model->kept;
   const double *origin = x + 4 * (size_t)kept->triangles[3 * kept->start[k]];
   for (size_t c = 0; c < 3; c++) vsc_subtract(x + 4 * (size_t)kept->triangles[3 * t + c], origin, at[c]);
-  for (size_t c = 0; c < 3; c++) {
+  for (size_t c = 0; c < 3 && gradient != NULL; c++) {
     double across[3];
     vsc_cross(at[(c + 1) % 3], at[(c + 2) % 3], across);
     for (int i = 0; i < 3; i++) gradient[c][i] = kept->weights[t] * across[i] / 6;

@@ -475,8 +475,8 @@ void vsc_supports_place(const vsc_model *model, double time, double load, double
 double vsc_kept_volume_of(const vsc_model *model, size_t k, const double *x);
 
 // The corners of triangle t of kept volume k at positions x, seen from the volume's first node (mm; its surface is closed,
-// so that the origin does not count), and what they add to the gradient of the volume: d(w (a x b) . c/6)/da = w (b x c)/6,
-// mm^2.
+// so that the origin does not count), and, unless NULL, what they add to the gradient of the volume:
+// d(w (a x b) . c/6)/da = w (b x c)/6, mm^2.
 void vsc_kept_triangle(const vsc_model *model, size_t k, size_t t, const double *x, double at[3][3], double gradient[3][3]);
 
 // Where an obstacle is at `time`: its point or centre, mm.

@@ -7,8 +7,8 @@
 
 enum { VSC_IDLE_KEYS = 256 };  // room for all of their names
 
-// Writes the keys of `solver`, `prestress` and `time`, and `masses`, whose values are not the default ones although nothing depends on
-// them: "solver.rho, time.step". Returns their number.
+// Writes the keys of `solver`, `prestress` and `time`, and `masses`, whose values are not the default ones although
+// nothing depends on them: "solver.rho, time.step". Returns their number.
 int vsc_idle_keys(const vsc_scene *scene, char keys[VSC_IDLE_KEYS]);
 
 #endif

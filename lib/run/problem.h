@@ -25,8 +25,9 @@ typedef struct vsc_problem {
 
 // Reads the scene `file` with the `settings` (key=value, setting_count of them), its mesh and
 // fibres, and builds the model. Each tissue that lists no inclusions gets the scene's vessels as inclusions,
-// in problem->scene too: VSC_INPUT where there are some in a tissue of another law than springs. Observed points are looked for in the mesh: VSC_INPUT for
-// one that lies further outside than its reach. Every check that needs no time step is done. With prestress the
+// in problem->scene too: VSC_INPUT where there are some in a tissue of another law than springs. Observed points are
+// looked for in the mesh: VSC_INPUT for one that lies further outside than its reach. Every check that needs no time step
+// is done. With prestress the
 // model has the mesh for its shape at rest until vsc_unload has found that. The caller owns *problem.
 vsc_status vsc_problem_load(const char *file, const char *const *settings, size_t setting_count,
                             vsc_problem **problem, vsc_error *error);

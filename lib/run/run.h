@@ -9,7 +9,8 @@
 
 #include "run/problem.h"
 
-// Called after each look at the energy (stop_time below), often between two rows of signals: simulated time and end (ms), wall seconds since the start.
+// Called after each look at the energy (stop_time below), often between two rows of signals: simulated time and end (ms),
+// wall seconds since the start.
 typedef void vsc_progress(void *context, double time, double end, double wall_seconds);
 
 typedef struct vsc_run_options {

@@ -44,8 +44,9 @@ vsc_status vsc_watch_open(const vsc_problem *problem, const char *file, double k
 // numbers are finite, when since the last look the energy balance has jumped by more than 5 % of the largest energy or
 // work seen (at least that of 3 % strain everywhere), when it is off by more than 10 % of that in all, or when an element
 // has more than 1000 times its volume at rest (inside out, too). Only explicit steps are held to the balance, and of these
-// not law PAPER, which makes energy, and a forced step. With watch->settles: where the speed of a support jumps in damped tissue, what was
-// dissipated since the last look is taken from the balance if the ledger's trapezoid is off by more than that.
+// not law PAPER, which makes energy, and a forced step. With watch->settles: where the speed of a support jumps in
+// damped tissue, what was dissipated since the last look is taken from the balance if the ledger's trapezoid is off by
+// more than that.
 vsc_status vsc_watch_observe(const vsc_problem *problem, vsc_state *state, vsc_watch *watch,
                              vsc_error *error);
 

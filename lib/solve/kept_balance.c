@@ -93,8 +93,8 @@ void vsc_kept_add_tangent(const vsc_kept_balance *kept, const double *x, double 
   for (size_t k = 0; k < volumes->count; k++)
     for (size_t t = volumes->start[k]; t < volumes->start[k + 1]; t++) {
       const uint32_t *node = volumes->triangles + 3 * t;
-      double at[3][3], gradient[3][3];
-      vsc_kept_triangle(kept->model, k, t, x, at, gradient);
+      double at[3][3];
+      vsc_kept_triangle(kept->model, k, t, x, at, NULL);
       const double part = -factor * kept->pressure[k] * volumes->weights[t] / 6;
       for (int c = 0; c < 3; c++) {
         const int next = (c + 1) % 3, last = (c + 2) % 3;
@@ -127,8 +127,8 @@ void vsc_kept_look_moving(vsc_kept_balance *kept, const double *x, const double 
     kept->defect[k] = 0;
     for (size_t t = volumes->start[k]; t < volumes->start[k + 1]; t++) {
       const uint32_t *node = volumes->triangles + 3 * t;
-      double at[3][3], gradient[3][3], across[3];
-      vsc_kept_triangle(kept->model, k, t, x, at, gradient);
+      double at[3][3], across[3];
+      vsc_kept_triangle(kept->model, k, t, x, at, NULL);
       // d^2 (a x b) . c = 2 (da x db . c + db x dc . a + dc x da . b)
       for (int c = 0; c < 3; c++) {
         vsc_cross(v + 4 * (size_t)node[c], v + 4 * (size_t)node[(c + 1) % 3], across);

@@ -3,8 +3,8 @@
 //   A d = r,  x <- x + d,
 // in full steps, which are halved only when a number is no longer finite or an element turns inside
 // out: looking at the residual's norm ruins bending. It is looked at before the first step alone: where steep laws
-// make a start far worse than the place that the body comes from, that is the start. The linear systems are solved as exactly as the
-// residual deserves (Eisenstat & Walker 1996, choice 2), so convergence is quadratic.
+// make a start far worse than the place that the body comes from, that is the start. The linear systems are solved as
+// exactly as the residual deserves (Eisenstat & Walker 1996, choice 2), so convergence is quadratic.
 #ifndef VSC_SOLVE_NEWTON_H
 #define VSC_SOLVE_NEWTON_H
 

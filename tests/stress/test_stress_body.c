@@ -35,7 +35,7 @@ static void open_block(small_body *body, vsc_law law, vsc_volume_kind volume)
 // Nodes are thrown about by more than an element's size, or all free ones put within a ball a thousandth as large:
 // the volume energy goes on below J = 0.2 (numerics: U is its Taylor polynomial there), so that every element
 // comes back. What cannot is told with a message. In steps of half the stable one: bodies thrown about change faster
-// than estimates come, and of 48 each 3 and 20 blew up at 0.8 of it, none and 3 at 0.5. (A run sees that and goes back.)
+// than estimates come, and of 48 each 3 and 20 blew up at 0.8 of it, none and 3 at 0.5.
 static void scrambled_elements_come_back(void **state)
 {
   (void)state;

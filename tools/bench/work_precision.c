@@ -26,7 +26,7 @@ static const char help[] =
     "tets. Real time: ten thousand tets on all processors, with steps made longer by added mass. After each\n"
     "which setting is the cheapest for 1, 0.1 and 0.01 %. Some minutes; results go to DIR.\n\n"
     "  -o, --output DIR     [error]\n"
-    "      --scene FILE     [data/benchmarks/beating_ventricle.yaml]\n"
+    "      --scene FILE     of time and space [data/benchmarks/beating_ventricle.yaml]\n"
     "      --only TABLE     time, space or real_time\n"
     "      --quick          the coarsest meshes only\n"
     "  -h, --help           this text\n\n"
@@ -76,6 +76,7 @@ static const way in_space[] = {
 
 // A heart that its sac holds: how much longer added mass may make its steps.
 static const char heart[] = "--around 32 --along 20";
+_Static_assert(COUNT(in_time) <= MOST_WAYS, "ways of one mesh");
 static const way in_real_time[] = {
     {.name = "masses as they are, safety 0.3", .generate = "", .settings = {"time.mass_scaling=0 ms", "time.safety=0.3"}, .reference = true},
     {.name = "masses as they are", .generate = "", .settings = {"time.mass_scaling=0 ms"}},
@@ -215,7 +216,8 @@ static void say_cheapest(const measured *all, size_t count)
   }
 }
 
-// Runs a way on the mesh of the k-th size, and tells it against the reference (its folder; NULL: it is the reference).
+// Runs a way on a mesh of that size, as the table's k-th run, and tells it against the reference (its folder; NULL: it is
+// the reference).
 static vsc_status take(const wish *wish, const table *table, const way *way, const char *size, int k,
                        const char *reference, char folder[PATH_MAX], measured *m, vsc_error *error)
 {
@@ -288,23 +290,33 @@ static vsc_status bench_space(const wish *wish, vsc_error *error)
   return status;
 }
 
+static const struct {
+  const char *name;
+  vsc_status (*bench)(const wish *wish, vsc_error *error);
+} tables[] = {{"time", bench_time}, {"space", bench_space}, {"real_time", bench_real_time}};
+
+static bool is_wanted(const wish *wish, int table)
+{
+  return wish->only == NULL || strcmp(wish->only, tables[table].name) == 0;
+}
+
+static bool is_known(const char *only)
+{
+  for (int k = 0; k < COUNT(tables); k++)
+    if (strcmp(only, tables[k].name) == 0) return true;
+  return false;
+}
+
 // The tables that are asked for.
 static vsc_status bench_all(const wish *wish, vsc_error *error)
 {
-  static const struct {
-    const char *name;
-    vsc_status (*bench)(const struct wish *wish, vsc_error *error);
-  } tables[] = {{"time", bench_time}, {"space", bench_space}, {"real_time", bench_real_time}};
   vsc_status status = VSC_OK;
-  bool known = false;
   for (int k = 0; k < COUNT(tables) && status == VSC_OK; k++) {
-    if (wish->only != NULL && strcmp(wish->only, tables[k].name) != 0) continue;
-    if (known) puts("");
-    known = true;
+    if (!is_wanted(wish, k)) continue;
     status = tables[k].bench(wish, error);
+    if (status == VSC_OK) puts("");
   }
-  if (known) return status;
-  return vsc_fail(error, VSC_INPUT, "--only %s: there are the tables time, space and real_time", wish->only);
+  return status;
 }
 
 static void draw(const wish *wish)
@@ -338,6 +350,10 @@ int vsc_bench_error(int argc, char **argv)
   }
   if (optind < argc) {
     fprintf(stderr, "viscera bench error: '%s' means nothing here\n", argv[optind]);
+    return 2;
+  }
+  if (wish.only != NULL && !is_known(wish.only)) {
+    fprintf(stderr, "viscera bench error: --only %s: there are the tables time, space and real_time\n", wish.only);
     return 2;
   }
   char file[PATH_MAX], whole[PATH_MAX];
