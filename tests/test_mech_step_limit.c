@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The estimated stable step against the true one: all eigenvalues of M^-1 (K + 2/dt C) of small
 // bodies, K and C by differences of the force, and stepping just below and above.
+#include <gsl/gsl_blas.h>
 #include <gsl/gsl_eigen.h>
+#include <gsl/gsl_linalg.h>
 
 #include "base/vec3.h"
 #include "close.h"
+#include "mech/coupled_mass.h"
 #include "mech/step_limit.h"
 #include "random_body.h"
 #include "trap.h"
@@ -19,6 +22,7 @@ typedef struct scene {
   double volume_modulus;  // kPa, of the second region; the first has a tenth
   double stiffness;       // of the active fibre, kPa
   double time;            // of the activation, ms
+  int passes;             // of coupled masses
 } scene;
 
 static const scene scenes[] = {
@@ -42,8 +46,13 @@ static const scene scenes[] = {
      .volume_modulus = 6,
      .sliver = true,
      .time = 2 * RAMP_TIME},
+    // with coupled masses
+    {.volume = VSC_VOLUME_ELEMENT, .volume_modulus = 100, .passes = 2},
+    {.volume = VSC_VOLUME_NODAL, .volume_modulus = 100, .damping = 2, .held = true, .passes = 5},
+    {.volume = VSC_VOLUME_ELEMENT, .volume_modulus = 10, .sliver = true, .damping = 20, .passes = 3},
+    {.active = VSC_ACTIVE_TENSION, .volume_modulus = 60, .time = 2 * RAMP_TIME, .passes = 7},
 };
-enum { SCENES = sizeof scenes / sizeof scenes[0] };
+enum { SCENES = sizeof scenes / sizeof scenes[0], LUMPED = SCENES - 4, PASSIVE = 7 };
 
 static double smallest_volume(const vsc_mesh *mesh)
 {
@@ -100,6 +109,13 @@ static void scene_open(random_body *body, const scene *s)
     body->definition.set_count = body->definition.support_count = 1;
   }
   body_build(body);
+  if (s->passes == 0) return;
+  vsc_error error;
+  vsc_state_free(body->state);
+  if (vsc_coupled_mass_create(body->model, 0.1, &error) != VSC_OK ||
+      vsc_coupled_mass_set_degree(body->model, s->passes, &error) != VSC_OK ||
+      vsc_state_create(body->model, &body->state, &error) != VSC_OK)
+    fail_msg("%s", error.text);
 }
 
 // Columns of M^-1/2 D M^-1/2 with D = dF/dx (or dF/dw): minus differences of the force at x moved
@@ -152,6 +168,33 @@ static double largest_eigenvalue(const gsl_matrix *stiffness, const gsl_matrix *
   return largest;
 }
 
+// R with R R^T = M^1/2 P M^-1/2 of coupled masses.
+static gsl_matrix *root_of_spread(random_body *body)
+{
+  const vsc_model *model = body->model;
+  const size_t count = 4 * model->node_count;
+  gsl_matrix *root = gsl_matrix_alloc(count, count);
+  double *a = numbers(count);
+  for (size_t j = 0; j < count; j++) {
+    memset(a, 0, count * sizeof *a);
+    a[j] = 1 / sqrt(model->mass[j / 4]);
+    const double *spread = vsc_coupled_mass_spread(model, &body->state->scratch, a);
+    for (size_t i = 0; i < count; i++) gsl_matrix_set(root, i, j, sqrt(model->mass[i / 4]) * spread[i]);
+  }
+  gsl_linalg_cholesky_decomp1(root);
+  for (size_t i = 0; i < count; i++)
+    for (size_t j = i + 1; j < count; j++) gsl_matrix_set(root, i, j, 0);
+  vsc_free(a);
+  return root;
+}
+
+// D <- R^T D R: M^-1 D P has the eigenvalues of that.
+static void couple(const gsl_matrix *root, gsl_matrix *D)
+{
+  gsl_blas_dtrmm(CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, 1, root, D);
+  gsl_blas_dtrmm(CblasLeft, CblasLower, CblasTrans, CblasNonUnit, 1, root, D);
+}
+
 // The system at the state's positions.
 typedef struct dense {
   gsl_matrix *stiffness, *damping;
@@ -163,6 +206,11 @@ static dense dense_of(random_body *body, double time)
   const dense d = {gsl_matrix_calloc(count, count), gsl_matrix_calloc(count, count)};
   add_matrix(body, body->state->x, false, time, 1, d.stiffness);
   if (body->model->terms.damping) add_matrix(body, body->state->x, true, time, 1, d.damping);
+  if (body->model->coupled.degree == 0) return d;
+  gsl_matrix *root = root_of_spread(body);
+  couple(root, d.stiffness);
+  couple(root, d.damping);
+  gsl_matrix_free(root);
   return d;
 }
 
@@ -288,8 +336,10 @@ static void shake_and_step(random_body *body, double dt, size_t count)
 static void stepping_is_stable_below_and_unstable_above(void **state)
 {
   (void)state;
-  for (int s = 0; s < 7; s++) {
+  for (int s = 0; s < SCENES; s++) {
     random_body body;
+    if (s == PASSIVE) s = LUMPED;
+    if (scenes[s].active != VSC_ACTIVE_NONE) continue;
     scene_open(&body, &scenes[s]);
     vsc_limit_refresh(body.model, body.state, 0, 40);
     const dense d = dense_of(&body, 0);
@@ -312,7 +362,7 @@ static void stepping_is_stable_below_and_unstable_above(void **state)
 static void the_bound_is_a_bound(void **state)
 {
   (void)state;
-  for (int s = 0; s < SCENES; s++) {
+  for (int s = 0; s < LUMPED; s++) {
     random_body body;
     size_t slot = SIZE_MAX;
     scene_open(&body, &scenes[s]);

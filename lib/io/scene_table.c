@@ -108,6 +108,9 @@ static const vsc_row time_rows[] = {
      .meaning = "mass, but no weight, is added at the stiffest elements until steps may be as long; default 0 ms: none"},
     {"most_added_mass", NUMBER(vsc_definition, most_added_mass), .commented = true, .text = "0.05",
      .meaning = "part of the body's mass that this may add"},
+    {"selective_mass_scaling", QUANTITY(vsc_definition, selective_mass_scaling, VSC_TIME), .commented = true, .text = "1 ms",
+     .meaning = "neighbours become inert against one another, but not the body as a whole, until steps may be as long; default "
+                "0 ms: not"},
 };
 GROUP(static, time, -1);
 

@@ -277,6 +277,8 @@ static void observe_nodes(const vsc_model *model, const vsc_state *state, vsc_to
   for (size_t n = 0; n < model->node_count; n++) {
     const double *x = state->x + 4 * n, *v = state->v + 4 * n, m = model->mass[n];
     double p[3] = {m * v[0], m * v[1], m * v[2]}, moment[3];
+    for (size_t i = 0; i < 3 && model->coupled.degree > 0; i++)
+      if (model->inverse_mass[4 * n + i] > 0) p[i] = m * state->lone_v[4 * n + i];
     if (consistent) memcpy(p, momenta + 4 * n, sizeof p);
     vsc_cross(x, p, moment);
     totals->kinetic += 0.5 * vsc_dot(p, v);

@@ -37,6 +37,7 @@ static bool allocate(const vsc_model *model, vsc_state *state)
   scratch->local_size = (4 * 3 + 1) * model->most_nodes + VSC_WIDTH * (model->most_packs + 2);
   scratch->local_size = (scratch->local_size + 7) / 8 * 8;
   const bool nodal = model->terms.nodal_volume;
+  const size_t lone = model->coupled.degree > 0 ? 4 * n : 0;
   const size_t tets =
       model->terms.smoothed ? VSC_MATRIX * VSC_WIDTH * model->pack_count : 0;
   return VSC_NEW(state->x, 4 * n) && VSC_NEW(state->v, 4 * n) && VSC_NEW(state->a, 4 * n) &&
@@ -57,7 +58,8 @@ static bool allocate(const vsc_model *model, vsc_state *state)
          VSC_NEW(state->touch, vsc_state_contacts(model)) &&
          VSC_NEW(state->moved, model->moved_count) &&
          VSC_NEW(state->kept_pressure, model->kept.count) &&
-         VSC_NEW(state->former_x, vsc_state_has_former(model, false) ? 4 * n : 0) &&
+         VSC_NEW(state->lone_v, lone) && VSC_NEW(state->lone_a, lone) && VSC_NEW(scratch->spread, 2 * lone) &&
+         VSC_NEW(scratch->lone, 4 * lone) && VSC_NEW(state->former_x, vsc_state_has_former(model, false) ? 4 * n : 0) &&
          VSC_NEW(state->former_v, vsc_state_has_former(model, true) ? 4 * n : 0) &&
          VSC_NEW(state->prony, vsc_prony_size(model));
 }
@@ -108,6 +110,8 @@ void vsc_state_free(vsc_state *state)
   vsc_free(state->v);
   vsc_free(state->a);
   vsc_free(state->past_a);
+  vsc_free(state->lone_v);
+  vsc_free(state->lone_a);
   vsc_free(state->force);
   vsc_free(state->contact);
   vsc_free(state->contact_count);
@@ -125,6 +129,8 @@ void vsc_state_free(vsc_state *state)
   vsc_free(state->limit.mode);
   vsc_free(state->scratch.local);
   vsc_free(state->scratch.partial);
+  vsc_free(state->scratch.spread);
+  vsc_free(state->scratch.lone);
   vsc_free(state->scratch.outside);
   vsc_free(state->scratch.pull);
   vsc_free(state->scratch.volume);

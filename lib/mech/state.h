@@ -48,6 +48,8 @@ typedef struct vsc_scratch {
                             // solve.incompressible
   double *pack_multiplier;  // pack_count x 4: the same of each element that shares its volume among its
                             // frames
+  double *spread;  // node_count x 4 x 2: passes of coupled masses; NULL without
+  double *lone;    // node_count x 4 x 4: x, A x and A d of the step estimate spread, and d that is not; likewise
   double *trial;  // node_count x 4 x 3: positions, forces and velocities (or the mode's image) of the step estimate
 } vsc_scratch;
 
@@ -83,6 +85,8 @@ typedef struct vsc_state {
   double *v;      // node_count x 4: velocity, mm/ms; owned
   double *a;      // node_count x 4: acceleration at x, v, time, mm/ms^2; owned
   double *past_a; // node_count x 4: acceleration a step before a; explicit steps with damping, owned
+  double *lone_v, *lone_a;  // node_count x 4: M^-1 times momenta and times forces, 0 in held directions: what v and a would
+                            // be if the masses were not coupled (coupled_mass.h), mm/ms, mm/ms^2; only there, owned
   double *force;  // node_count x 4: total force behind a, or what vsc_force_parts leaves there, mN; owned
   vsc_contact_sums *contact;  // obstacle_count; owned
   uint8_t *contact_count;     // node_count: a vsc_touching of each node in the last step; only with obstacles, owned

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "mech/coupled_mass.h"
 #include "mech/force.h"
 #include "mech/step_limit.h"
 
@@ -23,17 +24,23 @@ enum { NOISY_ITERATIONS = 2 };
 // Nodes go in pieces that depend on their number alone, so that sums are the same on any number of threads.
 enum { NODES_PER_PIECE = 256, MOST_PIECES = 64, SUMS = 6 };
 
-// What passes over the nodes share. Products are those of the mass norm, A is M^-1 (K + rate C).
+// What passes over the nodes share. Products are those of the mass norm, A is M^-1 (K + rate C). Where masses are
+// coupled, those of neighbours move by P d when d is asked of them (coupled_mass.h): A is M^-1 (K + rate C) P, and the
+// product is <a, b> = a . M P b, for which it is symmetric. Each vector z then has its spread P z beside it, of which
+// `place` and `speed` are made; without coupling they are one.
 typedef struct search {
   const vsc_model *model;
   vsc_state *state;
   double time;
+  bool coupled;      // masses
   bool symmetric;    // A: else all that is known is power iteration
   vsc_wide *x;       // the eigenvector so far, |x| = 1
   vsc_wide *image;   // A x
-  vsc_wide *place;   // d, the way in which x is changed next; while A d is measured where that leads to
+  vsc_wide *d;       // the way in which x is changed next; without coupling `place`
+  vsc_wide *place;   // P d; while A d is measured where that leads to
   vsc_wide *speed;   // rate . size . d, with damping
   vsc_wide *moved;   // forces there, then size . A d
+  vsc_wide *spread_x, *spread_image, *spread_moved;  // P of these
   double rate;       // 2/dt
   double size;       // what d is multiplied by to be far below an element; 0: there is no way
   double quotient;   // <x, A x>
@@ -101,11 +108,19 @@ VSC_INLINE double largest_of(vsc_wide a)
   return fmax(fmax(a[0], a[1]), fmax(a[2], a[3]));
 }
 
+// to = P z
+static void spread(const search *s, const vsc_wide *z, vsc_wide *to)
+{
+  memcpy(to, vsc_coupled_mass_spread(s->model, &s->state->scratch, (const double *)z),
+         s->model->node_count * sizeof *to);
+}
+
 // The first d: x + a random one of NOISE times its length (any length when there is none yet): what becomes the
 // stiffest elsewhere must not have to grow from nothing.
 static void stir(search *s)
 {
   const vsc_model *model = s->model;
+  const size_t bytes = model->node_count * sizeof *s->x;
   uint64_t seed = 1 + (uint64_t)s->state->limit.refreshes;
   double length = 0, noise = 0;
   vsc_wide most = vsc_splat(0);
@@ -113,16 +128,21 @@ static void stir(search *s)
     vsc_wide random = vsc_splat(0);
     for (int i = 0; i < 3; i++)
       if (model->inverse_mass[4 * n + (size_t)i] > 0) random[i] = next_random(&seed);
-    s->place[n] = random;
+    s->d[n] = random;
     noise += model->mass[n] * sum_of(random * random);
     length += model->mass[n] * sum_of(s->x[n] * s->x[n]);
   }
   const double scale = length > 0 ? NOISE * sqrt(length / noise) : 1;
   for (size_t n = 0; n < model->node_count; n++) {
-    s->place[n] = s->x[n] + scale * s->place[n];
+    s->d[n] = s->x[n] + scale * s->d[n];
     s->image[n] = vsc_splat(0);
-    most = larger(most, s->place[n]);
   }
+  if (s->coupled) {
+    memset(s->spread_x, 0, bytes);
+    memset(s->spread_image, 0, bytes);
+    spread(s, s->d, s->place);
+  }
+  for (size_t n = 0; n < model->node_count; n++) most = larger(most, s->place[n]);
   memset(s->parts, 0, sizeof s->parts);
   s->parts[0][0] = largest_of(most);
   s->size = probe_size(s);
@@ -135,31 +155,59 @@ VSC_CLONED static void step_aside(void *context, size_t piece, int thread)
   const vsc_wide *at = (const vsc_wide *)s->state->x;
   for (size_t n = first_node(s, piece), end = first_node(s, piece + 1); n < end; n++) {
     const vsc_wide d = s->size * s->place[n];
+    if (s->coupled) s->d[n] *= s->size;
     s->place[n] = at[n] + d;
     if (s->model->terms.damping) s->speed[n] = s->rate * d;
   }
 }
 
-// A d by the difference of forces; of d, A d, x, A x the products that are needed. d is what the positions differ
-// by, so that it is what the forces belong to, to the last bit.
-VSC_CLONED static void take_image(void *context, size_t piece, int thread)
+// A d, or C x, by the difference of forces.
+VSC_CLONED static void take_difference(void *context, size_t piece, int thread)
+{
+  (void)thread;
+  const search *s = context;
+  const vsc_wide *base = (const vsc_wide *)s->state->force;
+  const vsc_wide *inverse_mass = (const vsc_wide *)s->model->inverse_mass;
+  for (size_t n = first_node(s, piece), end = first_node(s, piece + 1); n < end; n++)
+    s->moved[n] = inverse_mass[n] * (base[n] - s->moved[n]);
+}
+
+static void take_image(search *s)
+{
+  pass(s, take_difference);
+  if (s->coupled) spread(s, s->moved, s->spread_moved);
+}
+
+// Of d, A d, x, A x the products that are needed. P d is what the positions differ by, so that it is what the forces
+// belong to, to the last bit.
+VSC_CLONED static void take_products(void *context, size_t piece, int thread)
 {
   (void)thread;
   search *s = context;
-  const vsc_wide *at = (const vsc_wide *)s->state->x, *base = (const vsc_wide *)s->state->force;
-  const vsc_wide *inverse_mass = (const vsc_wide *)s->model->inverse_mass;
+  const vsc_wide *at = (const vsc_wide *)s->state->x;
   vsc_wide sums[SUMS] = {0};
   for (size_t n = first_node(s, piece), end = first_node(s, piece + 1); n < end; n++) {
-    const vsc_wide d = s->place[n] - at[n], image = inverse_mass[n] * (base[n] - s->moved[n]);
-    s->moved[n] = image;
-    sums[0] += s->model->mass[n] * d * d;
-    sums[1] += s->model->mass[n] * d * image;
-    sums[2] += s->model->mass[n] * image * image;
-    sums[3] += s->model->mass[n] * s->x[n] * image;
-    sums[4] += s->model->mass[n] * s->image[n] * image;
-    sums[5] += s->model->mass[n] * s->x[n] * d;
+    const double mass = s->model->mass[n];
+    const vsc_wide spread_d = s->place[n] - at[n], d = s->coupled ? s->d[n] : spread_d, image = s->moved[n];
+    sums[0] += mass * d * spread_d;
+    sums[1] += mass * spread_d * image;
+    sums[2] += mass * s->spread_moved[n] * image;
+    sums[3] += mass * s->spread_x[n] * image;
+    sums[4] += mass * s->spread_image[n] * image;
+    sums[5] += mass * s->spread_x[n] * d;
   }
   for (int k = 0; k < SUMS; k++) s->parts[piece][k] = sum_of(sums[k]);
+}
+
+// Of one node: x, A x, A d and d, or what these are spread to.
+VSC_INLINE void turn_node(const search *s, size_t n, vsc_wide d, vsc_wide *x, vsc_wide *image, const vsc_wide *moved,
+                          vsc_wide *way)
+{
+  const vsc_wide before = x[n];
+  const double quotient = s->symmetric ? s->quotient : 0;
+  x[n] = s->x_of_x * before + s->x_of_d * d;
+  image[n] = s->x_of_x * image[n] + s->x_of_d * moved[n];
+  way[n] = image[n] - quotient * x[n] + s->d_of_x * before + s->d_of_d * d;
 }
 
 // The next x and its image; d becomes what is left of A x, the residual, and the part of the last way that makes it
@@ -169,13 +217,10 @@ VSC_CLONED static void turn(void *context, size_t piece, int thread)
   (void)thread;
   search *s = context;
   const vsc_wide *at = (const vsc_wide *)s->state->x;
-  const double quotient = s->symmetric ? s->quotient : 0;
   vsc_wide most = vsc_splat(0);
   for (size_t n = first_node(s, piece), end = first_node(s, piece + 1); n < end; n++) {
-    const vsc_wide x = s->x[n], d = s->place[n] - at[n];
-    s->x[n] = s->x_of_x * x + s->x_of_d * d;
-    s->image[n] = s->x_of_x * s->image[n] + s->x_of_d * s->moved[n];
-    s->place[n] = s->image[n] - quotient * s->x[n] + s->d_of_x * x + s->d_of_d * d;
+    if (s->coupled) turn_node(s, n, s->d[n], s->x, s->image, s->moved, s->d);
+    turn_node(s, n, s->place[n] - at[n], s->spread_x, s->spread_image, s->spread_moved, s->place);
     most = larger(most, s->place[n]);
   }
   s->parts[piece][0] = largest_of(most);
@@ -221,7 +266,8 @@ static bool improve(search *s, bool first)
   pass(s, step_aside);
   vsc_force(s->model, (const double *)s->place, s->model->terms.damping ? (const double *)s->speed : NULL, s->time,
             &state->scratch, (double *)s->moved);
-  pass(s, take_image);
+  take_image(s);
+  pass(s, take_products);
   if (!choose(s, first)) return false;
   pass(s, turn);
   s->size = probe_size(s);
@@ -236,19 +282,17 @@ static double step_of(const search *s)
   return 4 / (c + sqrt(c * c + 4 * ALLOWANCE * rest));
 }
 
-// C x by a difference of forces, and its products.
+// The products of C x.
 VSC_CLONED static void take_damping(void *context, size_t piece, int thread)
 {
   (void)thread;
   search *s = context;
-  const vsc_wide *base = (const vsc_wide *)s->state->force, *inverse_mass = (const vsc_wide *)s->model->inverse_mass;
   vsc_wide sums[SUMS] = {0};
   for (size_t n = first_node(s, piece), end = first_node(s, piece + 1); n < end; n++) {
-    const vsc_wide image = inverse_mass[n] * (base[n] - s->moved[n]);
-    s->moved[n] = image;
-    sums[0] += s->model->mass[n] * s->x[n] * image;
-    sums[1] += s->model->mass[n] * s->image[n] * image;
-    sums[2] += s->model->mass[n] * image * image;
+    const double mass = s->model->mass[n];
+    sums[0] += mass * s->spread_x[n] * s->moved[n];
+    sums[1] += mass * s->spread_image[n] * s->moved[n];
+    sums[2] += mass * s->spread_moved[n] * s->moved[n];
   }
   for (int k = 0; k < SUMS; k++) s->parts[piece][k] = sum_of(sums[k]);
 }
@@ -260,8 +304,12 @@ VSC_CLONED static void shift_rate(void *context, size_t piece, int thread)
   search *s = context;
   vsc_wide most = vsc_splat(0);
   for (size_t n = first_node(s, piece), end = first_node(s, piece + 1); n < end; n++) {
-    s->image[n] += s->shift * s->moved[n];
-    s->place[n] += s->shift * s->moved[n] + s->d_of_x * s->x[n];
+    if (s->coupled) {
+      s->image[n] += s->shift * s->moved[n];
+      s->d[n] += s->shift * s->moved[n] + s->d_of_x * s->x[n];
+    }
+    s->spread_image[n] += s->shift * s->spread_moved[n];
+    s->place[n] += s->shift * s->spread_moved[n] + s->d_of_x * s->spread_x[n];
     most = larger(most, s->place[n]);
   }
   s->parts[piece][0] = largest_of(most);
@@ -274,7 +322,8 @@ static void follow_step(search *s, int iteration)
   if (s->rate > 0 && iteration < NOISY_ITERATIONS) return;
   if (error <= (s->slope > 0 ? KNOWN_RATE_ERROR : RATE_ERROR) * s->rate) return;
   double sums[SUMS];
-  vsc_force(s->model, s->state->x, (const double *)s->x, s->time, &s->state->scratch, (double *)s->moved);
+  vsc_force(s->model, s->state->x, (const double *)s->spread_x, s->time, &s->state->scratch, (double *)s->moved);
+  take_image(s);
   pass(s, take_damping);
   add_up(s, sums);
   s->slope = fmax(sums[1], 0) / sqrt(s->square);
@@ -312,19 +361,26 @@ int vsc_limit_enough(const vsc_model *model)
 
 static search open_search(const vsc_model *model, vsc_state *state, double time)
 {
-  double *trial = state->scratch.trial;
-  const size_t count = 4 * model->node_count;
-  return (search){.model = model,
-                  .state = state,
-                  .time = time,
-                  .symmetric = is_symmetric(model),
-                  .x = (vsc_wide *)state->limit.mode,
-                  // predicted velocities are free between steps
-                  .image = (vsc_wide *)(model->terms.damping ? state->scratch.predicted : trial + 2 * count),
-                  .place = (vsc_wide *)trial,
-                  .speed = (vsc_wide *)(trial + 2 * count),
-                  .moved = (vsc_wide *)(trial + count),
-                  .rate = state->limit.step > 0 ? 2 * model->safety / state->limit.step : 0};
+  const size_t count = model->node_count;
+  vsc_wide *trial = (vsc_wide *)state->scratch.trial, *lone = (vsc_wide *)state->scratch.lone;
+  search s = {.model = model,
+              .state = state,
+              .time = time,
+              .coupled = model->coupled.degree > 0,
+              .symmetric = is_symmetric(model),
+              .x = (vsc_wide *)state->limit.mode,
+              // predicted velocities are free between steps
+              .image = model->terms.damping ? (vsc_wide *)state->scratch.predicted : trial + 2 * count,
+              .place = trial,
+              .d = trial,
+              .speed = trial + 2 * count,
+              .moved = trial + count,
+              .rate = state->limit.step > 0 ? 2 * model->safety / state->limit.step : 0};
+  s.spread_x = s.coupled ? lone : s.x;
+  s.spread_image = s.coupled ? lone + count : s.image;
+  s.spread_moved = s.coupled ? lone + 2 * count : s.moved;
+  if (s.coupled) s.d = lone + 3 * count;
+  return s;
 }
 
 void vsc_limit_refresh(const vsc_model *model, vsc_state *state, double time, int iterations)

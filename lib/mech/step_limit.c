@@ -59,16 +59,17 @@ static vsc_wide volume_moduli(const vsc_model *model, const vsc_patch *patch, si
   return modulus;
 }
 
-// sum_q V |B_i|^2 of corner c, B_ai = sum_k T_ak D_ki
-static vsc_wide gradient_squares(const vsc_model *model, const vsc_patch *patch, size_t k, int c)
+// sum_q V B_i . B_j of corners i and j, B_ai = sum_k T_ak D_ki
+static vsc_wide gradient_products(const vsc_model *model, const vsc_patch *patch, size_t k, int i, int j)
 {
   vsc_wide sum = vsc_splat(0);
   for (int q = 0; q < vsc_family_frames(model, patch->family); q++) {
     const vsc_frame *frame = vsc_pack_frames(model, patch, k) + q;
     const double(*D)[VSC_MOST_CORNERS] = model->rules[patch->family].D[q];
     for (int a = 0; a < 3; a++) {
-      const vsc_wide B = frame->T[a][0] * D[0][c] + frame->T[a][1] * D[1][c] + frame->T[a][2] * D[2][c];
-      sum += frame->V * B * B;
+      const vsc_wide *T = frame->T[a];
+      sum += frame->V * (T[0] * D[0][i] + T[1] * D[1][i] + T[2] * D[2][i]) *
+             (T[0] * D[0][j] + T[1] * D[1][j] + T[2] * D[2][j]);
     }
   }
   return sum;
@@ -97,53 +98,79 @@ static double strongest_damping(const vsc_model *model, const vsc_material *mate
   return most + material->viscosity;
 }
 
-static void add_cell_stiffness(const vsc_model *model, const vsc_patch *patch, double rate,
-                               double *stiffness)
+// Who takes stiffness, and whether that of pairs of nodes too.
+typedef struct receiver {
+  vsc_coupling_sink *sink;
+  void *context;
+  bool pairs;
+  double rate;  // 2/dt, 1/ms
+} receiver;
+
+// The nodes j of `corners` with which node i is a pair.
+static int first_partner(const receiver *to, int i)
+{
+  return to->pairs ? 0 : i;
+}
+
+static int last_partner(const receiver *to, int i, int corners)
+{
+  return to->pairs ? corners - 1 : i;
+}
+
+static void give(const receiver *to, const vsc_model *model, const vsc_patch *patch, uint16_t a, uint16_t b, double k)
+{
+  to->sink(to->context, vsc_node_of(model, patch, a), vsc_node_of(model, patch, b), k);
+}
+
+static void give_cells(const receiver *to, const vsc_model *model, const vsc_patch *patch)
 {
   const vsc_material *material = &model->materials[patch->material];
-  const double radial = radial_stiffness(material, patch->family);
-  const double damping = rate * strongest_damping(model, material);
+  const double radial = to->pairs ? 0 : radial_stiffness(material, patch->family);
+  const double damping = to->rate * strongest_damping(model, material);
+  const int corners = vsc_family_corners(patch->family);
   for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++) {
     const vsc_wide modulus = stiffest(model, patch, k) + volume_moduli(model, patch, k) + damping;
-    for (int c = 0; c < vsc_family_corners(patch->family); c++) {
-      const vsc_wide square = gradient_squares(model, patch, k, c);
-      for (int l = 0; l < VSC_WIDTH; l++)
-        if (model->mesh_element[VSC_WIDTH * k + l] != VSC_NO_ELEMENT)
-          stiffness[vsc_node_of(model, patch, vsc_pack_nodes(model, patch, k)[c][l])] +=
-              modulus[l] * square[l] + radial;
-    }
+    const uint16_t(*node)[VSC_WIDTH] = vsc_pack_nodes(model, patch, k);
+    for (int i = 0; i < corners; i++)
+      for (int j = first_partner(to, i); j <= last_partner(to, i, corners); j++) {
+        const vsc_wide square = gradient_products(model, patch, k, i, j);
+        for (int l = 0; l < VSC_WIDTH; l++)
+          if (model->mesh_element[VSC_WIDTH * k + (size_t)l] != VSC_NO_ELEMENT)
+            give(to, model, patch, node[i][l], node[j][l], modulus[l] * square[l] + radial);
+      }
   }
 }
 
 // A classical spring bounds k on both of its nodes.
-static void add_spring_stiffness(const vsc_model *model, const vsc_patch *patch, double *stiffness)
+static void give_springs(const receiver *to, const vsc_model *model, const vsc_patch *patch)
 {
   const vsc_edge_pack *packs = (const vsc_edge_pack *)(model->store + patch->packs);
+  const double stiffness = model->materials[patch->material].classical.stiffness;
   for (size_t k = 0; k < patch->pack_count; k++)
     for (int l = 0; l < VSC_WIDTH; l++)
       for (int i = 0; i < 2 && packs[k].length[l] > 0; i++)
-        stiffness[vsc_node_of(model, patch, packs[k].node[i][l])] +=
-            model->materials[patch->material].classical.stiffness;
+        for (int j = first_partner(to, i); j <= last_partner(to, i, 2); j++)
+          give(to, model, patch, packs[k].node[i][l], packs[k].node[j][l], i == j ? stiffness : -stiffness);
 }
 
 // At rest a triangle's energy is at most V (max(E, 2 G) + 2 K) |dg|^2 / 2.
-static void add_triangle_stiffness(const vsc_model *model, const vsc_patch *patch, double *stiffness)
+static void give_triangles(const receiver *to, const vsc_model *model, const vsc_patch *patch)
 {
   const vsc_sheet_moduli *law = &model->membranes[patch->material].moduli;
   const double modulus =
       fmax(fmax(law->axial[0], law->axial[1]), 2 * law->angular) + 2 * law->area;
   const vsc_triangle_pack *packs = vsc_triangles_of(model, patch);
   for (size_t k = 0; k < patch->pack_count; k++)
-    for (int i = 0; i < 3; i++) {
-      vsc_wide square = vsc_splat(0);
-      for (int a = 0; a < 2; a++) {
-        const vsc_wide *T = packs[k].T[a], B = i == 0 ? T[0] + T[1] : T[i - 1];
-        square += B * B;
+    for (int i = 0; i < 3; i++)
+      for (int j = first_partner(to, i); j <= last_partner(to, i, 3); j++) {
+        vsc_wide product = vsc_splat(0);
+        for (int a = 0; a < 2; a++) {
+          const vsc_wide *T = packs[k].T[a], B[3] = {-(T[0] + T[1]), T[0], T[1]};
+          product += B[i] * B[j];
+        }
+        for (int l = 0; l < VSC_WIDTH; l++)
+          give(to, model, patch, packs[k].node[i][l], packs[k].node[j][l], modulus * packs[k].V[l] * product[l]);
       }
-      for (int l = 0; l < VSC_WIDTH; l++)
-        stiffness[vsc_node_of(model, patch, packs[k].node[i][l])] +=
-            modulus * packs[k].V[l] * square[l];
-    }
 }
 
 // |dm_k/dx_i|^2 summed over k, of four bends at rest: |m| <= sum_i of its roots times |x_i - rest|.
@@ -169,18 +196,17 @@ static void moment_gradients(const vsc_bends *bends, const vsc_wide3 x[VSC_BEND_
   }
 }
 
-static void add_bend_stiffness(const vsc_model *model, const vsc_patch *patch, double *stiffness)
+static void give_bends(const receiver *to, const vsc_model *model, const vsc_patch *patch)
 {
   const vsc_bend_pack *packs = vsc_bends_of(model, patch);
-  for (size_t k = 0; k < patch->pack_count; k++) {
+  for (size_t k = 0; k < patch->pack_count && !to->pairs; k++) {
     const vsc_bend_pack *pack = &packs[k];
     vsc_wide3 x[VSC_BEND_NODES];
     vsc_wide square[VSC_BEND_NODES];
     vsc_pack_corners(model, patch, pack->node, VSC_BEND_NODES, model->rest, x);
     moment_gradients(&pack->bends, x, square);
     for (int i = 0; i < VSC_BEND_NODES; i++)
-      for (int l = 0; l < VSC_WIDTH; l++)
-        stiffness[vsc_node_of(model, patch, pack->node[i][l])] += square[i][l];
+      for (int l = 0; l < VSC_WIDTH; l++) give(to, model, patch, pack->node[i][l], pack->node[i][l], square[i][l]);
   }
 }
 
@@ -194,29 +220,47 @@ static bool is_taken(const vsc_model *model, const vsc_patch *patch, size_t slot
   return model->mesh_element[slot] != VSC_NO_ELEMENT;
 }
 
-// The springs of a surface, as those of one face: stiffness int N_i^2 dA on each node.
-static void add_surface_stiffness(const vsc_robin *bed, double rate, double *stiffness)
+// The springs of a surface, as those of one face: stiffness int N_i N_j dA between nodes.
+static void give_surface(const receiver *to, const vsc_robin *bed)
 {
+  const double stiffness = bed->stiffness + to->rate * bed->damping;
   for (size_t row = 0; row < bed->node_count; row++)
     for (uint32_t k = bed->start[row]; k < bed->start[row + 1]; k++) {
       const double *W = bed->blocks + 12 * (size_t)k;
-      if (bed->columns[k] == row)
-        stiffness[bed->nodes[row]] += (bed->stiffness + rate * bed->damping) * (W[0] + W[5] + W[10]) / (bed->normal ? 1 : 3);
+      if (to->pairs || bed->columns[k] == row)
+        to->sink(to->context, bed->nodes[row], bed->nodes[bed->columns[k]],
+                 stiffness * (W[0] + W[5] + W[10]) / (bed->normal ? 1 : 3));
     }
+}
+
+static void give_all(const receiver *to, const vsc_model *model)
+{
+  for (size_t p = 0; p < model->patch_count; p++) {
+    const vsc_patch *patch = &model->patches[p];
+    if (patch->family == VSC_SPRINGS_ON_EDGES) give_springs(to, model, patch);
+    if (patch->family == VSC_TRIANGLES) give_triangles(to, model, patch);
+    if (patch->family == VSC_BENDS) give_bends(to, model, patch);
+    if (vsc_patch_is_solid(patch) && model->materials[patch->material].law != VSC_LAW_CLASSICAL)
+      give_cells(to, model, patch);
+  }
+  for (size_t r = 0; r < model->robin_count; r++) give_surface(to, &model->robins[r]);
+}
+
+static void add_to_node(void *context, uint32_t a, uint32_t b, double k)
+{
+  (void)b;
+  ((double *)context)[a] += k;
 }
 
 void vsc_limit_stiffness(const vsc_model *model, double rate, double *stiffness)
 {
   memset(stiffness, 0, model->node_count * sizeof *stiffness);
-  for (size_t p = 0; p < model->patch_count; p++) {
-    const vsc_patch *patch = &model->patches[p];
-    if (patch->family == VSC_SPRINGS_ON_EDGES) add_spring_stiffness(model, patch, stiffness);
-    if (patch->family == VSC_TRIANGLES) add_triangle_stiffness(model, patch, stiffness);
-    if (patch->family == VSC_BENDS) add_bend_stiffness(model, patch, stiffness);
-    if (vsc_patch_is_solid(patch) && model->materials[patch->material].law != VSC_LAW_CLASSICAL)
-      add_cell_stiffness(model, patch, rate, stiffness);
-  }
-  for (size_t r = 0; r < model->robin_count; r++) add_surface_stiffness(&model->robins[r], rate, stiffness);
+  give_all(&(receiver){add_to_node, stiffness, false, rate}, model);
+}
+
+void vsc_limit_couplings(const vsc_model *model, double rate, vsc_coupling_sink *sink, void *context)
+{
+  give_all(&(receiver){sink, context, true, rate}, model);
 }
 
 double vsc_limit_bound(const vsc_model *model, vsc_scratch *scratch, size_t *slot)

@@ -39,4 +39,14 @@ double vsc_limit_bound(const vsc_model *model, vsc_scratch *scratch, size_t *slo
 // modulus times sum_q V |B_i|^2, with `rate` (1/ms) times the strongest damping of cells and surfaces beside it.
 void vsc_limit_stiffness(const vsc_model *model, double rate, double *stiffness);
 
+// Takes what motions of nodes a and b cost against one another, mN/mm.
+typedef void vsc_coupling_sink(void *context, uint32_t a, uint32_t b, double k);
+
+// Gives `sink` both (a, b) and (b, a) of each pair of nodes of an element, and (a, a):
+//   k = V (E + K) sum_q B_a . B_b,
+// E + K the moduli of vsc_limit_stiffness, with `rate` (1/ms); the same of edges with springs and
+// of membranes, and (k + rate c) int N_a N_b dA of springs and dashpots on surfaces. Bending is left out, and what
+// radial forces of law PAPER add.
+void vsc_limit_couplings(const vsc_model *model, double rate, vsc_coupling_sink *sink, void *context);
+
 #endif

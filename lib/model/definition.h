@@ -384,6 +384,8 @@ typedef struct vsc_definition {
   bool force_step;              // takes `step` even when it is above the stable one; default false
   double mass_scaling;          // ms; vsc_scale_masses adds mass until steps may be as long; 0: none
   double most_added_mass;       // part of the body's mass that it may add; default 0.05
+  double selective_mass_scaling;  // ms; vsc_scale_masses makes neighbours inert against one another until steps may be
+                                  // as long; 0: not
   double safety;                // fraction of the estimated stable step that is taken; default 0.8
   vsc_solve_def solve;
 } vsc_definition;

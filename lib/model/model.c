@@ -30,6 +30,10 @@ static void free_nodes(vsc_model *model)
   vsc_free(model->velocity);
   vsc_free(model->group_volume);
   vsc_free(model->group_modulus);
+  vsc_free(model->coupled.start);
+  vsc_free(model->coupled.columns);
+  vsc_free(model->coupled.entries);
+  vsc_free(model->coupled.passes);
 }
 
 static void free_lists(vsc_model *model)

@@ -317,6 +317,7 @@ typedef struct vsc_model {
   vsc_mass_kind masses;
   double total_mass;    // mg, without what mass scaling has added
   vsc_scaled_mass scaled;
+  vsc_coupled_mass coupled;
   double total_volume;  // mm^3
   uint64_t hash;        // of what moves it: two models with equal hashes move alike
 } vsc_model;

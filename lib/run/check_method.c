@@ -83,6 +83,9 @@ static void say_step(const vsc_problem *problem, vsc_state *state, FILE *out)
   if (scaled->step > 0)
     fprintf(out, "mass       %.3g %% added at %zu nodes, the most %.3g times what one weighs, for steps of %.4g ms\n",
             100 * scaled->added / model->total_mass, scaled->nodes, scaled->most, scaled->step);
+  if (model->coupled.degree > 0)
+    fprintf(out, "mass       neighbours coupled by %d passes over the nodes in each step, for steps of %.4g ms\n",
+            model->coupled.degree, model->coupled.step);
 }
 
 static double memory_bytes(const vsc_model *model)
@@ -91,9 +94,10 @@ static double memory_bytes(const vsc_model *model)
       4 + 1 + (model->amplitude ? 8 : 0) + (model->delay ? 8 : 0) + 16 + 72 + 1;
   const double loads = model->pressure_count + model->robin_count > 0 ? 32 : 0;
   const double contact = model->obstacle_count > 0 ? 3 * 32 + 1 : 0;
-  const double per_node = (32 + 8 + 32 + 16 + 4) + 32 * (5 + 3 + 3 + 1) + 8 + loads + contact;
+  const double coupled = model->coupled.degree > 0 ? 12.0 * model->coupled.start[model->node_count] : 0;
+  const double per_node = (32 + 8 + 32 + 16 + 4) + 32 * (5 + 3 + 3 + 1) + 8 + loads + contact + (coupled > 0 ? 8 * 32 : 0);
   return (double)model->store_size + per_element * (double)model->element_count +
-         per_node * (double)model->node_count + (double)(vsc_prony_size(model) * sizeof(double));
+         per_node * (double)model->node_count + coupled + (double)(vsc_prony_size(model) * sizeof(double));
 }
 
 static vsc_status say_cost(const vsc_problem *problem, vsc_state *state, FILE *out,

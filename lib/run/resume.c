@@ -8,7 +8,7 @@
 #include "run/job.h"
 
 // Scalars of a checkpoint, in the order of list_scalars.
-enum { CLOCK = 0, LIMIT = 2, WORKS = 10, WATCH = 15, SCALARS = 27, BLOCKS = 26 };
+enum { CLOCK = 0, LIMIT = 2, WORKS = 10, WATCH = 15, SCALARS = 27, BLOCKS = 28 };
 
 static void list_scalars(vsc_job *job, double *places[SCALARS])
 {
@@ -62,6 +62,12 @@ static size_t past_nodes(const vsc_job *job)
   return vsc_state_has_past(model) ? model->node_count : 0;
 }
 
+static size_t coupled_nodes(const vsc_job *job)
+{
+  const vsc_model *model = job->problem->model;
+  return model->coupled.degree > 0 ? model->node_count : 0;
+}
+
 // `count` where equilibria have multipliers.
 static size_t multipliers(const vsc_job *job, size_t count)
 {
@@ -96,6 +102,8 @@ static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[
       {"velocity", "mm/ms", nodes, 4, state->v},
       {"acceleration", "mm/ms^2", nodes, 4, state->a},
       {"past_acceleration", "mm/ms^2", past_nodes(job), 4, state->past_a},
+      {"lone_velocity", "mm/ms", coupled_nodes(job), 4, state->lone_v},
+      {"lone_acceleration", "mm/ms^2", coupled_nodes(job), 4, state->lone_a},
       {"stiffest_mode", "1", nodes, 4, state->limit.mode},
       {"contact", "mN ms, uJ, uJ, mN ms, ms, mN", job->problem->model->obstacle_count,
        sizeof *state->contact / sizeof(double), (double *)state->contact},

@@ -125,6 +125,7 @@ static void write_body(const vsc_job *job, const vsc_run_result *result, const c
     write_number(file, "most_added_mass_of_a_node", model->scaled.most, ",");
     write_number(file, "nodes_with_added_mass", (double)model->scaled.nodes, ",");
   }
+  if (model->coupled.degree > 0) write_number(file, "passes_of_coupled_masses", model->coupled.degree, ",");
   write_unloaded(problem, file);
   write_number(file, "time_s", 1e-3 * job->state->time, ",");
   write_number(file, "steps", job->state->steps, ",");

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "mech/coupled_mass.h"
 #include "mech/force.h"
 #include "mech/prony.h"
 #include "mech/step_limit.h"
@@ -26,6 +27,7 @@ typedef struct motion {
   vsc_state *state;
   double dt;
   bool whole;  // whether the forces are added up already
+  const vsc_wide *a;  // accelerations where masses are coupled; else NULL
 } motion;
 
 // Nodes go in pieces. Each has a slice of the nodes before those that are still, or before those that patches share,
@@ -66,7 +68,7 @@ VSC_INLINE vsc_wide kick_node(const motion *m, size_t n)
   // a <- f / m;  v <- v + dt/2 a
   const double *force = m->state->force;
   const vsc_wide f = m->whole ? ((const vsc_wide *)force)[n] : vsc_node_force(m->model, &m->state->scratch, force, n);
-  const vsc_wide a = ((const vsc_wide *)m->model->inverse_mass)[n] * f;
+  const vsc_wide a = m->a != NULL ? m->a[n] : ((const vsc_wide *)m->model->inverse_mass)[n] * f;
   ((vsc_wide *)m->state->v)[n] += 0.5 * m->dt * a;
   return a;
 }
@@ -100,6 +102,30 @@ VSC_CLONED static void kick_and_drift(void *context, size_t piece, int thread)
     const slice s = slice_of(m->model, piece, behind);
     for (size_t n = s.first; n < s.end; n++) drift_node(m, n, kick_node(m, n));
   }
+}
+
+// With the momenta M u and the forces f = M u':  u <- u + dt/2 (u' + f / m)
+VSC_CLONED static void push_alone(void *context, size_t piece, int thread)
+{
+  (void)thread;
+  const motion *m = context;
+  vsc_wide *u = (vsc_wide *)m->state->lone_v, *rate = (vsc_wide *)m->state->lone_a;
+  for (int behind = 0; behind < 2; behind++) {
+    const slice s = slice_of(m->model, piece, behind);
+    for (size_t n = s.first; n < s.end; n++) {
+      const vsc_wide a = ((const vsc_wide *)m->model->inverse_mass)[n] * ((const vsc_wide *)m->state->force)[n];
+      u[n] += 0.5 * m->dt * (rate[n] + a);
+      rate[n] = a;
+    }
+  }
+}
+
+// Accelerations of coupled masses.
+static void accelerate(motion *m)
+{
+  if (m->model->coupled.degree == 0) return;
+  vsc_parallel_for(piece_count(m->model), push_alone, m);
+  m->a = (const vsc_wide *)vsc_coupled_mass_spread(m->model, &m->state->scratch, m->state->lone_a);
 }
 
 // Puts nodes out of obstacles and volumes back to what they were, in turns, since each may disturb the
@@ -138,8 +164,8 @@ static vsc_status settle(const vsc_model *model, vsc_state *state, double dt, vs
 vsc_status vsc_steps(const vsc_model *model, vsc_state *state, double dt, double count,
                      vsc_error *error)
 {
-  // supports that move look at whole forces
-  motion m = {model, state, dt, model->moved_count > 0};
+  // supports that move and coupled masses look at whole forces
+  motion m = {model, state, dt, model->moved_count > 0 || model->coupled.degree > 0, NULL};
   const size_t pieces = piece_count(model);
   const double *velocity = model->terms.damping ? state->scratch.predicted : NULL;
   vsc_parallel_for(pieces, drift, &m);
@@ -154,6 +180,7 @@ vsc_status vsc_steps(const vsc_model *model, vsc_state *state, double dt, double
     if (model->branch_count > 0) vsc_prony_step(model, state, dt);
     (m.whole ? vsc_force : vsc_force_parts)(model, state->x, velocity, state->time, &state->scratch, state->force);
     if (model->moved_count > 0) vsc_moving_account(model, state, dt, k == count);
+    accelerate(&m);
     vsc_parallel_for(pieces, k < count ? kick_and_drift : kick, &m);
   }
   return settle(model, state, dt, error);
@@ -203,12 +230,19 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
     const vsc_status status = vsc_keep_volume_settle(model, state, allowed, error);
     if (status != VSC_OK) return status;
   }
+  if (model->coupled.degree > 0 && model->velocity != NULL) {
+    // what bodies are set in motion with is momentum
+    const size_t bytes = 4 * model->node_count * sizeof *state->v;
+    memcpy(state->lone_v, model->velocity, bytes);
+    memcpy(state->v, vsc_coupled_mass_spread(model, &state->scratch, state->lone_v), bytes);
+  }
   state->limit.time = state->time;
   state->limit.interval = SHORTEST_TRUST;
   state->limit.first = state->limit.least = allowed;
   vsc_force(model, state->x, model->terms.damping ? state->v : NULL, state->time, &state->scratch,
             state->force);
   motion m = {.model = model, .state = state, .whole = true};
+  accelerate(&m);
   for (size_t piece = 0; piece < piece_count(model); piece++) kick(&m, piece, 0);
   if (model->terms.damping) memcpy(state->past_a, state->a, 4 * model->node_count * sizeof *state->a);
   if (model->moved_count > 0) vsc_moving_start(model, state);

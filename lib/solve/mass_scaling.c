@@ -6,13 +6,22 @@
 
 #include "base/hash.h"
 #include "base/mem.h"
+#include "mech/coupled_mass.h"
 #include "mech/step_limit.h"
 #include "solve/explicit.h"
 
 enum { MOST_ROUNDS = 20 };
-#define LARGEST_RISE 1.5  // of k in a round
-#define FIRST_FACTOR 0.1  // k: bounds of stiffness are some 3 to 50 times above it
-#define CLOSE 1e-3        // the wanted step is reached to this part of it
+#define FIRST_FACTOR 0.1   // k: bounds of stiffness are some 3 to 50 times above it
+#define LARGEST_RISE 4.0   // of k in a round
+#define FLATTEST 0.2       // d log step / d log k, at least: 1/2 where mass is added at all nodes
+#define CLOSE 1e-3         // the wanted step is reached to this part of it,
+#define CLOSE_ABOVE 5e-3   // and exceeded by no more than this, as far as rounds go
+#define MOST_PASSES 63.0
+
+// A factor k that was tried, and the stable step that it gives, ms.
+typedef struct trial {
+  double k, step;
+} trial;
 
 static void set_mass(vsc_model *model, size_t node, double mass)
 {
@@ -53,7 +62,47 @@ static void count_added(vsc_model *model, const double *before)
   }
 }
 
-vsc_status vsc_scale_masses(vsc_model *model, const vsc_definition *definition, vsc_error *error)
+// k between that of too short a step and that of too long a one (0: none is known yet), or above the former, by the slope
+// that the last two had.
+static double next_factor(const trial *low, const trial *high, const trial *lower, double wanted)
+{
+  const trial *other = high->k > 0 ? high : lower;
+  double slope = 0.5;
+  if (other->k > 0) slope = log(other->step / low->step) / log(other->k / low->k);
+  const double rise = pow(wanted / low->step, 1 / fmax(fmin(slope, 0.5), FLATTEST));
+  if (high->k > 0) return fmin(low->k * fmax(rise, 1 + CLOSE), sqrt(low->k * high->k) * sqrt(sqrt(high->k / low->k)));
+  return low->k * fmin(fmax(rise, 1 + CLOSE), LARGEST_RISE);
+}
+
+// Finds k, by secants of log step over log k.
+static vsc_status find_factor(vsc_model *model, double wanted, const double *before, const double *stiffness, double *step,
+                              vsc_error *error)
+{
+  // step = safety 2/sqrt(1.1 lambda)
+  const double lambda = pow(2 * model->safety / wanted, 2) / 1.1;
+  trial low = {0}, lower = {0}, high = {0};
+  double k = FIRST_FACTOR;
+  for (int round = 0;; round++) {
+    for (size_t n = 0; n < model->node_count; n++) set_mass(model, n, fmax(before[n], k * stiffness[n] / lambda));
+    const vsc_status status = stable_step(model, step, error);
+    const bool reached = *step >= wanted * (1 - CLOSE);
+    if (status != VSC_OK || (reached && *step <= wanted * (1 + CLOSE_ABOVE))) return status;
+    if (reached) {
+      if (round >= MOST_ROUNDS) return VSC_OK;
+      high = (trial){k, *step};
+    } else {
+      lower = low, low = (trial){k, *step};
+    }
+    // the last rounds take what is known to be enough, or go on until it is
+    if (round == 2 * MOST_ROUNDS)
+      return vsc_fail(error, VSC_NUMERICAL, "time.mass_scaling: %g ms was not reached, but %.4g ms; leave it out", wanted, *step);
+    k = round >= MOST_ROUNDS && high.k > 0 ? high.k
+        : low.k > 0                       ? next_factor(&low, &high, &lower, wanted)
+                                          : k / LARGEST_RISE;
+  }
+}
+
+static vsc_status scale_nodes(vsc_model *model, const vsc_definition *definition, vsc_error *error)
 {
   const double wanted = definition->mass_scaling;
   if (wanted == 0) return VSC_OK;
@@ -63,7 +112,7 @@ vsc_status vsc_scale_masses(vsc_model *model, const vsc_definition *definition, 
     return vsc_fail(error, VSC_INPUT,
                     "time.mass_scaling: is for explicit steps of their own length: use solve: explicit and time.step: "
                     "auto, or leave it out");
-  double *stiffness, *before = NULL, step = 0, factor = FIRST_FACTOR;
+  double *stiffness, *before = NULL, step = 0;
   if (!VSC_NEW(stiffness, model->node_count) || !VSC_NEW(before, model->node_count)) {
     vsc_free(stiffness);
     return vsc_fail_memory(error, "mass scaling");
@@ -71,14 +120,8 @@ vsc_status vsc_scale_masses(vsc_model *model, const vsc_definition *definition, 
   vsc_limit_stiffness(model, 2 * model->safety / wanted, stiffness);
   memcpy(before, model->mass, model->node_count * sizeof *before);
   vsc_status status = stable_step(model, &step, error);
-  // step = safety 2/sqrt(1.1 lambda)
-  const double lambda = pow(2 * model->safety / wanted, 2) / 1.1;
-  for (int round = 0; status == VSC_OK && step < wanted * (1 - CLOSE) && round < MOST_ROUNDS; round++) {
-    for (size_t n = 0; n < model->node_count; n++)
-      set_mass(model, n, fmax(before[n], factor * stiffness[n] / lambda));
-    status = stable_step(model, &step, error);
-    factor *= fmin(fmax(pow(wanted / step, 2), 1 + CLOSE), LARGEST_RISE);
-  }
+  if (status == VSC_OK && step < wanted * (1 - CLOSE))
+    status = find_factor(model, wanted, before, stiffness, &step, error);
   count_added(model, before);
   weigh_supports(model);
   model->scaled.step = step;
@@ -94,4 +137,63 @@ vsc_status vsc_scale_masses(vsc_model *model, const vsc_definition *definition, 
                     wanted, 100 * model->scaled.added / model->total_mass, 100 * definition->most_added_mass,
                     1 + model->scaled.most);
   return VSC_OK;
+}
+
+static vsc_status check_coupling(const vsc_model *model, const vsc_definition *definition, vsc_error *error)
+{
+  const double wanted = definition->selective_mass_scaling;
+  if (!(wanted > 0))
+    return vsc_fail(error, VSC_INPUT,
+                    "time.selective_mass_scaling: %g ms: give a time above zero, or 0 ms for none", wanted);
+  if (definition->solve.kind != VSC_SOLVE_EXPLICIT || definition->step > 0)
+    return vsc_fail(error, VSC_INPUT,
+                    "time.selective_mass_scaling: is for explicit steps of their own length: use solve: explicit and "
+                    "time.step: auto, or leave it out");
+  const char *what = model->obstacle_count > 0 ? "obstacles" : model->kept.count > 0 ? "keep_volume"
+                     : model->terms.paper      ? "law: paper" : NULL;
+  if (what == NULL) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT,
+                  "time.selective_mass_scaling: does not go with %s yet: use time.mass_scaling, or leave it out", what);
+}
+
+// So many passes that the wanted step is stable: steps grow about as their number does.
+static vsc_status find_degree(vsc_model *model, double wanted, double *step, vsc_error *error)
+{
+  const double first = *step;
+  double m = 1;
+  vsc_status status = VSC_OK;
+  while (status == VSC_OK && *step < wanted * (1 - CLOSE)) {
+    m = fmax(m + 1, ceil(m * wanted / *step * (1 - CLOSE)));
+    if (m > MOST_PASSES + 1)
+      return vsc_fail(error, VSC_INPUT,
+                      "time.selective_mass_scaling: %g ms is too far above the stable step of %.4g ms: %.0f passes over "
+                      "the nodes make it %.4g ms; take a shorter one",
+                      wanted, first, (double)model->coupled.degree, *step);
+    status = vsc_coupled_mass_set_degree(model, (int)m - 1, error);
+    if (status == VSC_OK) status = stable_step(model, step, error);
+  }
+  return status;
+}
+
+static vsc_status couple_nodes(vsc_model *model, const vsc_definition *definition, vsc_error *error)
+{
+  const double wanted = definition->selective_mass_scaling;
+  double step = 0;
+  if (wanted == 0) return VSC_OK;
+  vsc_status status = check_coupling(model, definition, error);
+  if (status == VSC_OK) status = vsc_coupled_mass_create(model, 2 * model->safety / wanted, error);
+  if (status == VSC_OK) status = stable_step(model, &step, error);
+  if (status == VSC_OK) status = find_degree(model, wanted, &step, error);
+  if (status != VSC_OK) return status;
+  vsc_coupled_mass *mass = &model->coupled;
+  mass->step = step;
+  model->hash = vsc_hash(model->hash, &mass->largest, sizeof mass->largest);
+  model->hash = vsc_hash(model->hash, &mass->degree, sizeof mass->degree);
+  return VSC_OK;
+}
+
+vsc_status vsc_scale_masses(vsc_model *model, const vsc_definition *definition, vsc_error *error)
+{
+  const vsc_status status = scale_nodes(model, definition, error);
+  return status == VSC_OK ? couple_nodes(model, definition, error) : status;
 }
