@@ -120,6 +120,18 @@ static void test_prony(void **state)
   assert_string_not_equal(summary("relaxing", "model_hash"), summary("whole", "model_hash"));
 }
 
+// With coupled masses, dashpots and a support that moves: momenta are kept besides velocities.
+static void test_coupled_masses(void **state)
+{
+  (void)state;
+  cut_and_compare("$V run block.yaml -q --set 'time.selective_mass_scaling=1 ms' "
+                  "--set 'robin=[{surface: skin, stiffness: 1 kPa/mm, damping: 2 kPa ms/mm}]' "
+                  "--set 'supports[0].motion=[1 mm, 0 mm, 0.5 mm]' "
+                  "--set 'supports[0].curve={kind: half_sine, duration: 15 ms}'", "coupled");
+  assert_true(atof(summary("coupled", "passes_of_coupled_masses")) >= 1);
+  assert_true(atof(summary("coupled", "steps")) < 0.5 * atof(summary("whole", "steps")));
+}
+
 // With springs and dashpots on a surface and a support that moves, too: as above.
 static void test_moved_supports(void **state)
 {
@@ -455,6 +467,7 @@ int main(void)
       cmocka_unit_test(test_moved_supports),
       cmocka_unit_test(test_contact),
       cmocka_unit_test(test_prony),
+      cmocka_unit_test(test_coupled_masses),
       cmocka_unit_test(test_kept_volume),
       cmocka_unit_test(test_later_end),
       cmocka_unit_test(test_cut_anywhere),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Mass added at slivers: the wanted step is stable, little is added, weights stay, and too much is refused.
+// Mass added at slivers: the wanted step is stable, little is added, weights stay, and too much is refused. Masses coupled
+// between neighbours: the wanted step is stable, energy and momentum are kept, and whole bodies fall as they would.
 #include "small_body.h"
 #include "solve/mass_scaling.h"
 
@@ -81,11 +82,141 @@ static void too_much_is_refused(void **state)
   }
 }
 
+// A bar of 64 tets that flies, or hangs from its face x = 0, with masses coupled for steps of `wanted` ms.
+static void open_coupled(small_body *body, bool held, double wanted)
+{
+  vsc_error error;
+  body_open(body, block_of(4, 2, 2, 1, 0.2), 100);
+  if (held) body_hold(body, "x0", 1, 1, 1);
+  body->definition.safety = 0.9;
+  body->definition.selective_mass_scaling = wanted;
+  body_build(body);
+  if (vsc_scale_masses(body->model, &body->definition, &error) != VSC_OK) fail_msg("%s", error.text);
+  vsc_state_free(body->state);
+  if (vsc_state_create(body->model, &body->state, &error) != VSC_OK) fail_msg("%s", error.text);
+}
+
+static void open_lumped(small_body *body, bool held, double *step)
+{
+  open_coupled(body, held, 0);
+  *step = stable_step(body);
+}
+
+static vsc_totals totals_of(const small_body *body)
+{
+  vsc_totals totals;
+  vsc_ledger *ledger;
+  vsc_error error;
+  if (vsc_ledger_create(body->model, &ledger, &error) != VSC_OK) fail_msg("%s", error.text);
+  vsc_observe(body->model, body->state, ledger, false, &totals);
+  vsc_ledger_free(ledger);
+  return totals;
+}
+
+static double energy_of(const vsc_totals *totals)
+{
+  return totals->kinetic + totals->axial + totals->angular + totals->volume_energy;
+}
+
+// A body pulled out of shape flies on: energy within what leapfrog steps let it swing, momentum to rounding.
+static void coupled_masses_keep_energy_and_momentum(void **state)
+{
+  (void)state;
+  double stable, swing[2];
+  small_body body;
+  open_lumped(&body, false, &stable);
+  body_close(&body);
+  for (int fine = 0; fine < 2; fine++) {
+    open_coupled(&body, false, 5 * stable);
+    assert_true(body.model->coupled.degree >= 4 && body.model->coupled.step >= 5 * stable * (1 - 1e-3));
+    // as in the model's search
+    assert_close(stable_step(&body), body.model->coupled.step, 1e-12, 0);
+    for (size_t n = 0; n < body.model->node_count; n++) {
+      body.state->x[4 * n] *= 1.1;
+      body.state->lone_v[4 * n + 1] = body.state->v[4 * n + 1] = 0.2;
+    }
+    // the acceleration there
+    body_steps(&body, 1e-9, 1);
+    const vsc_totals before = totals_of(&body);
+    const double dt = body.model->coupled.step / (fine ? 8 : 4);
+    double least = INFINITY, most = -INFINITY;
+    for (int k = 0; k < (fine ? 400 : 200); k++) {
+      body_steps(&body, dt, 10);
+      const vsc_totals now = totals_of(&body);
+      least = fmin(least, energy_of(&now));
+      most = fmax(most, energy_of(&now));
+      for (int i = 0; i < 3; i++) assert_close(now.momentum[i], before.momentum[i], 0, 1e-11 * before.momentum[1]);
+    }
+    swing[fine] = (most - least) / energy_of(&before);
+    body_close(&body);
+  }
+  // steps half as long: a quarter (of order 2)
+  assert_true(swing[0] < 0.1 && swing[1] < swing[0] / 3.5);
+}
+
+// Free fall of a body that is set in motion, for 20 steps: x = X + v t + g t^2 / 2, whatever the masses are.
+static void whole_bodies_fall_as_they_would(void **state)
+{
+  (void)state;
+  double stable;
+  small_body body;
+  open_lumped(&body, false, &stable);
+  body_close(&body);
+  body_open(&body, block_of(4, 2, 2, 1, 0.2), 100);
+  vsc_array *speed = vsc_arrays_add(&body.mesh->node_data, "speed", 3, body.mesh->node_count);
+  for (size_t n = 0; n < body.mesh->node_count; n++) speed->values[3 * n] = 0.3;
+  vsc_copy_name(body.definition.velocity.array, "speed");
+  body.definition.selective_mass_scaling = 4 * stable;
+  body.definition.gravity[2] = -0.01;
+  body_build(&body);
+  vsc_error error;
+  assert_int_equal(vsc_scale_masses(body.model, &body.definition, &error), VSC_OK);
+  vsc_state_free(body.state);
+  assert_int_equal(vsc_state_create(body.model, &body.state, &error), VSC_OK);
+  body_start(&body);
+  const double dt = body.model->coupled.step, t = 20 * dt;
+  body_steps(&body, dt, 20);
+  for (size_t n = 0; n < body.model->node_count; n++) {
+    // rounding of positions of 4 mm in 20 steps, which stiffness makes accelerations of
+    assert_close(body.state->x[4 * n], body.model->rest[4 * n] + 0.3 * t, 0, 1e-10);
+    assert_close(body.state->x[4 * n + 2], body.model->rest[4 * n + 2] - 0.005 * t * t, 0, 1e-10);
+  }
+  const vsc_totals totals = totals_of(&body);
+  assert_close(totals.kinetic, 0.5 * body.model->total_mass * (0.09 + 1e-4 * t * t), 1e-9, 0);
+  body_close(&body);
+}
+
+static void coupling_is_refused(void **state)
+{
+  (void)state;
+  static const char *const says[] = {"above zero", "time.step", "too far above the stable step", "obstacles", "keep_volume"};
+  for (int way = 0; way < 5; way++) {
+    small_body body;
+    vsc_error error;
+    vsc_obstacle_def obstacle = vsc_default_obstacle();
+    open_slivers(&body);
+    obstacle.normal[2] = 1;
+    obstacle.point[2] = -5;
+    if (way == 3) body.definition.obstacle_count = 1, body.definition.obstacles = &obstacle;
+    if (way == 4) body.definition.kept_volume = VSC_KEEP_TOTAL;
+    body_build(&body);
+    body.definition.selective_mass_scaling = way == 0 ? -1 : way == 2 ? 500 : 0.01;
+    if (way == 1) body.definition.step = 0.001;
+    assert_int_equal(vsc_scale_masses(body.model, &body.definition, &error), VSC_INPUT);
+    assert_non_null(strstr(error.text, "time.selective_mass_scaling: "));
+    assert_non_null(strstr(error.text, says[way]));
+    body_close(&body);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(slivers_do_not_set_the_step),
       cmocka_unit_test(too_much_is_refused),
+      cmocka_unit_test(coupled_masses_keep_energy_and_momentum),
+      cmocka_unit_test(whole_bodies_fall_as_they_would),
+      cmocka_unit_test(coupling_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
