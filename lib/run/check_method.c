@@ -84,7 +84,7 @@ static void say_step(const vsc_problem *problem, vsc_state *state, FILE *out)
     fprintf(out, "mass       %.3g %% added at %zu nodes, the most %.3g times what one weighs, for steps of %.4g ms\n",
             100 * scaled->added / model->total_mass, scaled->nodes, scaled->most, scaled->step);
   if (model->coupled.degree > 0)
-    fprintf(out, "mass       neighbours coupled by %d passes over the nodes in each step, for steps of %.4g ms\n",
+    fprintf(out, "inertia    of neighbours against one another: %d passes over the nodes in each step, for steps of %.4g ms\n",
             model->coupled.degree, model->coupled.step);
 }
 
