@@ -41,6 +41,11 @@ static void test_damping_that_limits_the_step(void **state)
   assert_int_equal(sscanf(strstr(line, mode) + strlen(mode), "%*u, at rest at (%lf", &node), 1);
   assert_int_equal(sscanf(strstr(line, part) + strlen(part), "%*u at (%lf", &element), 1);
   assert_true(node > 9 && element < 10);
+  static const char advice[] = "; time.selective_mass_scaling makes steps of viscous tissue longer";
+  assert_holds(line, advice);
+  must("$V check halves.yaml -t 1 --set 'time.selective_mass_scaling=0.02 ms'");
+  assert_null(strstr(line_of("step"), advice));
+  assert_holds(line_of("inertia"), "of neighbours against one another: ");
   must("$V check halves.yaml -t 1 --set 'materials[1].viscosity=0 Pa s'");
   assert_holds(line_of("step"), "; limited most by element ");
   assert_null(strstr(line_of("step"), "damping"));

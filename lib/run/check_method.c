@@ -60,14 +60,16 @@ static void say_limit(const vsc_problem *problem, vsc_state *state, FILE *out)
   double centre[3];
   char what[VSC_NAME + 32], node[VSC_NODE_TEXT];
   const double own = 2 / sqrt(vsc_limit_bound(model, &state->scratch, &slot));
+  // stiffness alone leaves at least this
+  const bool rules = model->terms.damping && limit->step < model->safety * own / sqrt(1.1);
   say_part(problem, slot, what, sizeof what, centre);
   fprintf(out, "limited most ");
   if (model->terms.damping) {
-    const bool rules = limit->step < model->safety * own / sqrt(1.1);  // stiffness alone leaves at least this
     fprintf(out, "%sat %s; by stiffness alone ", rules ? "by damping, " : "",
             vsc_name_node(model, vsc_largest_node(model, limit->mode), node, sizeof node));
   }
-  fprintf(out, "by %s at (%.4g, %.4g, %.4g), whose own bound is %.4g ms\n", what, centre[0], centre[1], centre[2], own);
+  fprintf(out, "by %s at (%.4g, %.4g, %.4g), whose own bound is %.4g ms%s\n", what, centre[0], centre[1], centre[2], own,
+          rules && model->coupled.degree == 0 ? "; time.selective_mass_scaling makes steps of viscous tissue longer" : "");
 }
 
 static void say_step(const vsc_problem *problem, vsc_state *state, FILE *out)

@@ -156,14 +156,15 @@ static vsc_status check_coupling(const vsc_model *model, const vsc_definition *d
                   "time.selective_mass_scaling: does not go with %s yet: use time.mass_scaling, or leave it out", what);
 }
 
-// So many passes that the wanted step is stable: steps grow about as their number does.
+// So many passes that the wanted step is stable: steps grow as m = passes + 1, where damping rules them as its square.
 static vsc_status find_degree(vsc_model *model, double wanted, double *step, vsc_error *error)
 {
   const double first = *step;
-  double m = 1;
+  double m = 1, power = 2;
   vsc_status status = VSC_OK;
   while (status == VSC_OK && *step < wanted * (1 - CLOSE)) {
-    m = fmax(m + 1, ceil(m * wanted / *step * (1 - CLOSE)));
+    if (m > 1) power = fmin(fmax(log(*step / first) / log(m), 0.5), 2);
+    m = fmax(m + 1, floor(m * pow(wanted / *step, 1 / power)));
     if (m > MOST_PASSES + 1)
       return vsc_fail(error, VSC_INPUT,
                       "time.selective_mass_scaling: %g ms is too far above the stable step of %.4g ms: %.0f passes over "

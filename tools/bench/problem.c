@@ -36,13 +36,9 @@ const vsc_bench_problem *const vsc_bench_problems[] = {
     &vsc_bench_twisting_column,
     &vsc_bench_beat,
     &vsc_bench_arostica_0a,
-    &vsc_bench_arostica_0a_explicit,
     &vsc_bench_arostica_0b,
-    &vsc_bench_arostica_0b_explicit,
     &vsc_bench_arostica_1,
-    &vsc_bench_arostica_1_explicit,
     &vsc_bench_arostica_biventricle,
-    &vsc_bench_arostica_biventricle_explicit,
 };
 const size_t vsc_bench_problem_count = sizeof vsc_bench_problems / sizeof vsc_bench_problems[0];
 

@@ -26,10 +26,6 @@ extern const vsc_bench_problem vsc_bench_beat;       // time steps of the shippe
 extern const vsc_bench_problem vsc_bench_arostica_0a;            // a ventricle contracts
 extern const vsc_bench_problem vsc_bench_arostica_0b;            // is filled, and snaps through
 extern const vsc_bench_problem vsc_bench_arostica_1;             // both
-extern const vsc_bench_problem vsc_bench_arostica_0a_explicit;
-extern const vsc_bench_problem vsc_bench_arostica_0b_explicit;
-extern const vsc_bench_problem vsc_bench_arostica_1_explicit;
 extern const vsc_bench_problem vsc_bench_arostica_biventricle; // two ventricles
-extern const vsc_bench_problem vsc_bench_arostica_biventricle_explicit;
 
 #endif
