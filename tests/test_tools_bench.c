@@ -17,7 +17,7 @@ static void sections_are_listed_and_others_refused(void **state)
   assert_non_null(strstr(complained, "cannot be written"));
   must("$V bench error --help");
   assert_int_equal(shell("$V bench error --only speed -o none"), 2);
-  assert_non_null(strstr(complained, "--only speed: there are the tables time, space and real_time"));
+  assert_non_null(strstr(complained, "--only speed: there are the tables time, space, real_time and slivers"));
   assert_int_equal(shell("test -e none"), 1);
 }
 

@@ -34,6 +34,19 @@ static void the_heart_in_real_time_is_understood(void **state)
   assert_holds(line_of("warnings"), "none");
 }
 
+// One pass over the nodes makes the bar's steps 2.5 times as long.
+static void the_bar_with_slivers_is_understood(void **state)
+{
+  (void)state;
+  must("$V generate block --cells 24,8,8 --size 48,16,16 --tets 6 --slivers 40 -o bar.vtu");
+  must("$V info bar.vtu");
+  assert_holds(line_of("  angles"), " 0.3 to ");
+  must("$V check " SCENES "slivers.yaml --set mesh.file=$PWD/bar.vtu --set 'time.selective_mass_scaling=0.05 ms'");
+  assert_holds(line_of("inertia"), ": 1 passes ");
+  assert_int_equal(shell("$V generate block --cells 24,8,8 --slivers 73 -o bar.vtu"), 2);
+  assert_holds(complained, "block: 73 slivers, there are places for 72");
+}
+
 // Ten cubes of five quadratic tets: 4.1695 mm, within 2 %.
 static void the_beam_bends_as_published(void **state)
 {
@@ -51,6 +64,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_ventricles_are_understood),
       cmocka_unit_test(the_heart_in_real_time_is_understood),
+      cmocka_unit_test(the_bar_with_slivers_is_understood),
       cmocka_unit_test(the_beam_bends_as_published),
   };
   return cmocka_run_group_tests(tests, program_open, program_close);

@@ -47,7 +47,7 @@ static void options_of_a_shape_are_taken(void **state)
       "--along 4 --layers 1 --element hex --base-rise 0.1 --along-x --surfaces",
       "map --like land --endo-radius 7 --endo-length 17 --epi-radius 10 --epi-length 20 --base 5 "
       "--endo-angle 50 --epi-angle=-50 --spacing 3",
-      "block --cells 2,2,2 --size 1,1,1 --tets 6 --jitter 0.1 --seed 2 --element tet",
+      "block --cells 3,2,2 --size 1,1,1 --tets 6 --jitter 0.1 --seed 2 --slivers 1 --element tet",
       "block --unstructured --points 30 --size 1,1,1 --seed 2",
       "sheet --cells 2,2 --size 1,1 --jitter 0.1 --seed 2",
       "tube --radius 1 --length 2 --around 6 --along 3",

@@ -39,6 +39,7 @@ void vsc_generate_help(void)
       "      --tets=5|6                       tets of a brick [5]\n"
       "      --jitter=PART --seed=N           inner nodes moved by up to PART of a brick, 0 to 0.3 "
       "[0, 1]\n"
+      "      --slivers=N                      inner nodes moved to a hundredth of a brick from the next [0]\n"
       "      --element=tet|hex|wedge|mixed    what becomes of the bricks [tet]\n"
       "      --unstructured                   instead of bricks, scattered points and their "
       "Delaunay "
@@ -99,6 +100,7 @@ enum {
   TETS,
   JITTER,
   SEED,
+  SLIVERS,
   ELEMENT,
   UNSTRUCTURED,
   POINTS,
@@ -134,6 +136,7 @@ const struct option vsc_generate_options[] = {
     {"tets", required_argument, NULL, TETS},
     {"jitter", required_argument, NULL, JITTER},
     {"seed", required_argument, NULL, SEED},
+    {"slivers", required_argument, NULL, SLIVERS},
     {"element", required_argument, NULL, ELEMENT},
     {"unstructured", no_argument, NULL, UNSTRUCTURED},
     {"points", required_argument, NULL, POINTS},
@@ -162,7 +165,7 @@ static const struct {
   const char *shape, *options;
 } shapes[] = {{"lv", WALL "around along layers element base-rise along-x surfaces"},
               {"map", WALL "endo-angle epi-angle spacing"},
-              {"block", "cells size tets jitter seed element"},
+              {"block", "cells size tets jitter seed slivers element"},
               {"block --unstructured", "unstructured size points seed"},
               {"sheet", "cells size jitter seed"},
               {"tube", "radius length around along"},
@@ -322,6 +325,8 @@ bool vsc_generate_option(vsc_generate_wish *wish, int option, const char *text)
       good = read_counts(text, &count, 1);
       wish->block.tets_per_cell = (int)count;
       return good;
+    case SLIVERS:
+      return read_counts(text, &wish->block.slivers, 1);
     case BRICKS:
       return read_counts(text, &wish->bricks, 1);
     case TREE:

@@ -69,13 +69,15 @@ typedef struct vsc_block_shape {
   int tets_per_cell;  // 5 (neighbours mirrored) or 6 (round the brick's main diagonal)
   double jitter;  // inner nodes are moved by up to this part of a brick along each axis, 0 to 0.3
   unsigned long seed;  // of the jitter
+  size_t slivers;      // so many inner nodes are moved along x to a hundredth of a brick from the next one
 } vsc_block_shape;
 
 // 4 x 4 x 4 bricks of 5 tets in a cube of 10 mm, no jitter.
 vsc_block_shape vsc_block_default(void);
 
 // The mesh of the box: node arrays x0, x1, y0, y1, z0, z1, 0 or 1, for its six faces; tet array
-// `region`, 1. VSC_INPUT for an empty box or a jitter that turns a tet over. The caller owns *mesh.
+// `region`, 1. VSC_INPUT for an empty box, a jitter that turns a tet over, or more slivers than there are places, every third
+// node along each axis. The caller owns *mesh.
 vsc_status vsc_block_mesh(const vsc_block_shape *shape, vsc_mesh **mesh, vsc_error *error);
 
 // Number `number` in [-1, 1) of the series `seed` (the mixing function of SplitMix64, Steele et al.

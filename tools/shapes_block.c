@@ -14,6 +14,13 @@ vsc_block_shape vsc_block_default(void)
   return (vsc_block_shape){.cells = {4, 4, 4}, .size = {10, 10, 10}, .tets_per_cell = 5, .seed = 1};
 }
 
+// The inner nodes that may become slivers, every third along each axis so that none has two; the number of them.
+static size_t sliver_places(const vsc_block_shape *block, size_t count[3])
+{
+  for (int a = 0; a < 3; a++) count[a] = (block->cells[a] + (a > 0)) / 3;
+  return count[0] * count[1] * count[2];
+}
+
 static vsc_status check_block(const vsc_block_shape *block, vsc_error *error)
 {
   for (int a = 0; a < 3; a++) {
@@ -30,6 +37,10 @@ static vsc_status check_block(const vsc_block_shape *block, vsc_error *error)
   if (!(block->jitter >= 0 && block->jitter <= 0.3))
     return vsc_fail(error, VSC_INPUT, "block: jitter %g, must be 0 to 0.3 of a brick",
                     block->jitter);
+  size_t count[3];
+  if (block->slivers > sliver_places(block, count))
+    return vsc_fail(error, VSC_INPUT, "block: %zu slivers, there are places for %zu", block->slivers,
+                    sliver_places(block, count));
   return VSC_OK;
 }
 
@@ -62,6 +73,19 @@ static void place_block_node(const vsc_block_shape *block, vsc_mesh *mesh, size_
   }
 }
 
+static void place_slivers(const vsc_block_shape *block, vsc_mesh *mesh)
+{
+  size_t count[3];
+  const size_t places = sliver_places(block, count), across = block->cells[0] + 1, deep = block->cells[1] + 1;
+  for (size_t s = 0; s < block->slivers; s++) {
+    const size_t place = s * places / block->slivers;
+    const size_t i = 1 + 3 * (place % count[0]), j = 1 + 3 * (place / count[0] % count[1]),
+                 k = 1 + 3 * (place / count[0] / count[1]);
+    double *node = mesh->nodes + 3 * (i + across * (j + deep * k));
+    for (int a = 0; a < 3; a++) node[a] += 0.99 * (node[3 + a] - node[a]);
+  }
+}
+
 static void cut_block(const vsc_block_shape *block, vsc_mesh *mesh)
 {
   const size_t *cells = block->cells, tets = (size_t)block->tets_per_cell;
@@ -91,6 +115,7 @@ vsc_status vsc_block_mesh(const vsc_block_shape *block, vsc_mesh **result, vsc_e
     return vsc_fail_memory(error, "the block's arrays");
   }
   for (size_t n = 0; n < nodes; n++) place_block_node(block, mesh, n);
+  place_slivers(block, mesh);
   if (!vsc_shape_finish(mesh)) {
     vsc_mesh_free(mesh);
     return vsc_fail(error, VSC_INPUT, "block: a jitter of %g turns tets inside out, use less",
