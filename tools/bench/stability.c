@@ -45,6 +45,7 @@ static const char help[] =
 
 #define LONG_WAY 1e5   // steps just below what is claimed
 #define SHORT_WAY 2e3  // steps above the true limit
+#define COUPLED_STEPS 4  // stable steps in one with coupled masses
 
 typedef struct wish {
   const char *only;
@@ -91,18 +92,37 @@ static void measure_step(const char *folder)
   vsc_problem_free(problem);
 }
 
-// What runs in a process of its own: argv[1] is the folder, argv[2] says whether steps are measured.
+// As a setting: inertia of neighbours for steps several times as long as the stable one at rest.
+static void write_coupling(const char *folder, char *setting, size_t size)
+{
+  vsc_problem *problem;
+  vsc_state *state = NULL;
+  char scene[PATH_MAX];
+  vsc_error error;
+  snprintf(scene, sizeof scene, "%s/scene.yaml", folder);
+  snprintf(setting, size, "time.selective_mass_scaling=0 ms");
+  if (vsc_problem_load(scene, NULL, 0, &problem, &error) != VSC_OK) return;
+  if (vsc_state_create(problem->model, &state, &error) == VSC_OK &&
+      vsc_start(problem->model, state, &error) == VSC_OK)
+    snprintf(setting, size, "time.selective_mass_scaling=%.9g ms", COUPLED_STEPS * state->limit.step);
+  vsc_state_free(state);
+  vsc_problem_free(problem);
+}
+
+// What runs in a process of its own: argv[1] is the folder, argv[2] says whether steps are measured or masses coupled.
 static int do_case(int argc, char **argv)
 {
-  char run[PATH_MAX], scene[PATH_MAX];
+  char run[PATH_MAX], scene[PATH_MAX], setting[64];
   if (argc < 3) return VSC_SYSTEM;
   snprintf(run, sizeof run, "%s/run", argv[1]);
   snprintf(scene, sizeof scene, "%s/scene.yaml", argv[1]);
   vsc_parallel_set_threads(1);
   if (strcmp(argv[2], "steps") == 0) measure_step(argv[1]);
-  char *words[] = {"run", "-q", "-t", "1", "-o", run, scene, NULL};
+  const bool couples = strcmp(argv[2], "couple") == 0;
+  if (couples) write_coupling(argv[1], setting, sizeof setting);
+  char *words[] = {"run", "-q", "-t", "1", "-o", run, scene, couples ? "--set" : NULL, setting, NULL};
   optind = 0;
-  return vsc_verb_run(7, words);
+  return vsc_verb_run(couples ? 9 : 7, words);
 }
 
 static void read_step(const char *folder, vsc_verdict *verdict)
@@ -136,7 +156,7 @@ static void take_case(const wish *wish, int worker, const vsc_stress_case *at, v
   // not of kept volumes, which the true limit does not see, nor of law paper, whose stiffness is not symmetric
   const bool steps = at->method == VSC_STRESS_EXPLICIT && vsc_stress_rests(at) &&
                      strcmp(vsc_stress_kinds[at->kind], "kept") != 0 && strcmp(vsc_stress_laws[at->law], "paper") != 0;
-  char *words[] = {"case", folder, steps ? "steps" : "run", NULL};
+  char *words[] = {"case", folder, at->method == VSC_STRESS_COUPLED ? "couple" : steps ? "steps" : "run", NULL};
   snprintf(log, sizeof log, "%s/log.txt", folder);
   vsc_child_cost cost = {0};
   vsc_error error = {0};

@@ -109,20 +109,21 @@ static const element_kind kinds[] = {
 enum { SMOOTHED = 2, KEPT = 3, KINDS = sizeof kinds / sizeof kinds[0] };
 const size_t vsc_stress_kind_count = KINDS;
 
-const char *const vsc_stress_methods[VSC_STRESS_METHODS] = {"explicit", "implicit", "equilibrium"};
+const char *const vsc_stress_methods[VSC_STRESS_METHODS] = {"explicit", "coupled", "implicit", "equilibrium"};
 
 // ---- cases
 
 static bool means_something(const vsc_stress_case *at)
 {
   const vsc_stress *stress = &vsc_stresses[at->stress];
-  const bool of_edges = at->law == PAPER || at->law == CLASSICAL, explicit = at->method == VSC_STRESS_EXPLICIT;
+  const bool of_edges = at->law == PAPER || at->law == CLASSICAL, explicit = at->method <= VSC_STRESS_COUPLED;
   if (stress->axes > 0 && !has_fibres(at->law)) return false;
   if (stress->volume > 0 && of_edges) return false;
   if (stress->viscosity > 0 && of_edges) return false;
   if (at->law == CLASSICAL && (stress->tension > 0 || stress->curve != NULL || stress->delays)) return false;
   if (of_edges && (!explicit || kinds[at->kind].raised || at->kind == SMOOTHED)) return false;
   if (at->kind == KEPT && (!explicit || stress->motion > 0)) return false;
+  if (at->method == VSC_STRESS_COUPLED && (at->kind == KEPT || at->law == PAPER)) return false;
   if (stress->shape == VSC_STRESS_SLIVER && kinds[at->kind].block != VSC_BLOCK_TETS) return false;
   return at->method != VSC_STRESS_EQUILIBRIUM || stress->masses == 0 || stress->regions > 0;
 }
@@ -305,7 +306,7 @@ static vsc_status write_scene(const vsc_stress_case *at, const char *folder, boo
   // the ledger sees loads at its looks only
   const double look = stress->curve != NULL || stress->pressure > 0 ? 0.02 : 0.1;
   fprintf(file, "solve: %s\ntime: {end: %g ms}\noutput: {frames: %g ms, signals: %g ms}\n",
-          vsc_stress_methods[at->method], end, end, at->method == VSC_STRESS_EQUILIBRIUM ? end / 10 : look);
+          at->method == VSC_STRESS_COUPLED ? "explicit" : vsc_stress_methods[at->method], end, end, at->method == VSC_STRESS_EQUILIBRIUM ? end / 10 : look);
   if (fclose(file) == 0) return VSC_OK;
   return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", name, strerror(errno));
 }

@@ -47,7 +47,7 @@ extern const char *const vsc_stress_laws[];
 extern const size_t vsc_stress_law_count;
 extern const char *const vsc_stress_kinds[];
 extern const size_t vsc_stress_kind_count;
-enum { VSC_STRESS_EXPLICIT, VSC_STRESS_IMPLICIT, VSC_STRESS_EQUILIBRIUM, VSC_STRESS_METHODS };
+enum { VSC_STRESS_EXPLICIT, VSC_STRESS_COUPLED, VSC_STRESS_IMPLICIT, VSC_STRESS_EQUILIBRIUM, VSC_STRESS_METHODS };
 extern const char *const vsc_stress_methods[VSC_STRESS_METHODS];
 
 // Goes to the next case; begin with a zeroed one whose name is empty. False behind the last. Unless `whole`,

@@ -134,7 +134,7 @@ void vsc_judge(const vsc_stress_case *at, const char *folder, vsc_status status,
   vsc_signals *table;
   vsc_error unread;
   verdict->steps = vsc_results_number(run, "steps");
-  verdict->repeated = vsc_results_number(run, at->method == VSC_STRESS_EXPLICIT ? "stretches_repeated_with_shorter_steps"
+  verdict->repeated = vsc_results_number(run, at->method <= VSC_STRESS_COUPLED ? "stretches_repeated_with_shorter_steps"
                                                                                 : "steps_rejected_this_run");
   if (vsc_signals_read(file, &table, &unread) != VSC_OK || table->rows == 0) {
     call_wrong(verdict, "nothing is left of the run");
