@@ -170,22 +170,38 @@ static void fill_random(const vsc_model *model, vsc_wide *v)
     }
 }
 
-// Of the first rows and columns of T; NAN when memory is short.
-static double largest_of(double *T, size_t steps)
+// The largest eigenvalue of the first rows and columns of T, and what it may be off by, its residual: beta times the last
+// number of its eigenvector. NAN when memory is short.
+static double largest_of(double *T, size_t steps, double beta)
 {
   gsl_error_handler_t *handler = gsl_set_error_handler_off();
   gsl_matrix_view part = gsl_matrix_view_array_with_tda(T, steps, steps, LANCZOS_STEPS);
   gsl_vector *values = gsl_vector_alloc(steps);
-  gsl_eigen_symm_workspace *work = gsl_eigen_symm_alloc(steps);
+  gsl_matrix *vectors = gsl_matrix_alloc(steps, steps);
+  gsl_eigen_symmv_workspace *work = gsl_eigen_symmv_alloc(steps);
   double largest = NAN;
-  if (values != NULL && work != NULL) {
-    gsl_eigen_symm(&part.matrix, values, work);
-    largest = gsl_vector_max(values);
+  if (values != NULL && vectors != NULL && work != NULL) {
+    gsl_eigen_symmv(&part.matrix, values, vectors, work);
+    const size_t last = gsl_vector_max_index(values);
+    largest = gsl_vector_get(values, last) + beta * fabs(gsl_matrix_get(vectors, steps - 1, last));
   }
-  if (work != NULL) gsl_eigen_symm_free(work);
+  if (work != NULL) gsl_eigen_symmv_free(work);
+  if (vectors != NULL) gsl_matrix_free(vectors);
   if (values != NULL) gsl_vector_free(values);
   gsl_set_error_handler(handler);
   return largest;
+}
+
+// Gershgorin's bound.
+static double bound_of(const vsc_model *model)
+{
+  double most = 0;
+  for (size_t n = 0; n < model->node_count; n++) {
+    double sum = 0;
+    for (uint32_t k = model->coupled.start[n]; k < model->coupled.start[n + 1]; k++) sum += fabs(model->coupled.entries[k]);
+    most = fmax(most, sum / model->mass[n]);
+  }
+  return most;
 }
 
 // The largest eigenvalue of M^-1 L, by Lanczos's method in the mass norm; of three vectors of the nodes.
@@ -211,7 +227,7 @@ static double largest_eigenvalue(const vsc_model *model, vsc_wide *v, vsc_wide *
     memcpy(last, v, bytes);
     for (size_t n = 0; n < model->node_count; n++) v[n] = next[n] / beta;
   }
-  return largest_of(T, steps);
+  return largest_of(T, steps, beta);
 }
 
 static vsc_status find_largest(vsc_model *model, vsc_error *error)
@@ -219,7 +235,8 @@ static vsc_status find_largest(vsc_model *model, vsc_error *error)
   double *memory;
   if (!VSC_NEW(memory, 3 * 4 * model->node_count)) return vsc_fail_memory(error, "selective mass scaling");
   vsc_wide *v = (vsc_wide *)memory;
-  model->coupled.largest = ALLOWANCE * largest_eigenvalue(model, v, v + model->node_count, v + 2 * model->node_count);
+  const double found = largest_eigenvalue(model, v, v + model->node_count, v + 2 * model->node_count);
+  model->coupled.largest = fmin(ALLOWANCE * found, bound_of(model));
   vsc_free(memory);
   if (model->coupled.largest > 0) return VSC_OK;
   return vsc_fail(error, VSC_INPUT,
