@@ -17,6 +17,8 @@ enum { MOST_ROUNDS = 20 };
 #define CLOSE 1e-3         // the wanted step is reached to this part of it,
 #define CLOSE_ABOVE 5e-3   // and exceeded by no more than this, as far as rounds go
 #define MOST_PASSES 63.0
+#define MOST_RISE 3.0      // of their number in a round
+#define FAR_ABOVE 1.2      // the wanted step: fewer passes may do
 
 // A factor k that was tried, and the stable step that it gives, ms.
 typedef struct trial {
@@ -156,24 +158,39 @@ static vsc_status check_coupling(const vsc_model *model, const vsc_definition *d
                   "time.selective_mass_scaling: does not go with %s yet: use time.mass_scaling, or leave it out", what);
 }
 
-// So many passes that the wanted step is stable: steps grow as m = passes + 1, where damping rules them as its square.
+// The number m to try next, passes + 1: steps grow as m, where damping rules them as its square; the first few passes say
+// little about many.
+static double next_number(const trial *low, const trial *high, const trial *lower, double wanted)
+{
+  const trial *other = high->k > 0 ? high : lower;
+  const double power = other->k > 0 ? log(other->step / low->step) / log(other->k / low->k) : 2;
+  const double m = floor(low->k * pow(wanted / low->step, 1 / fmin(fmax(power, 0.5), 2)));
+  return fmin(fmax(m, low->k + 1), high->k > 0 ? high->k - 1 : fmin(MOST_RISE * low->k, MOST_PASSES + 1));
+}
+
+// The fewest passes, or not many more, with which the wanted step is stable; *step is that of none.
 static vsc_status find_degree(vsc_model *model, double wanted, double *step, vsc_error *error)
 {
+  trial lower = {0}, low = {1, *step}, high = {0};
   const double first = *step;
-  double m = 1, power = 2;
-  vsc_status status = VSC_OK;
-  while (status == VSC_OK && *step < wanted * (1 - CLOSE)) {
-    if (m > 1) power = fmin(fmax(log(*step / first) / log(m), 0.5), 2);
-    m = fmax(m + 1, floor(m * pow(wanted / *step, 1 / power)));
-    if (m > MOST_PASSES + 1)
+  while (*step < wanted * (1 - CLOSE) || (high.k > low.k + 1 && *step > wanted * FAR_ABOVE)) {
+    if (low.k == MOST_PASSES + 1)
       return vsc_fail(error, VSC_INPUT,
                       "time.selective_mass_scaling: %g ms is too far above the stable step of %.4g ms: %.0f passes over "
                       "the nodes make it %.4g ms; take a shorter one",
-                      wanted, first, (double)model->coupled.degree, *step);
-    status = vsc_coupled_mass_set_degree(model, (int)m - 1, error);
+                      wanted, first, MOST_PASSES, *step);
+    const double m = high.k == low.k + 1 ? high.k : next_number(&low, &high, &lower, wanted);
+    vsc_status status = vsc_coupled_mass_set_degree(model, (int)m - 1, error);
     if (status == VSC_OK) status = stable_step(model, step, error);
+    if (status != VSC_OK) return status;
+    if (*step >= wanted * (1 - CLOSE)) {
+      high = (trial){m, *step};
+    } else {
+      lower = low;
+      low = (trial){m, *step};
+    }
   }
-  return status;
+  return VSC_OK;
 }
 
 static vsc_status couple_nodes(vsc_model *model, const vsc_definition *definition, vsc_error *error)
