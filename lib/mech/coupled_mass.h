@@ -8,8 +8,8 @@
 // y = lambda / lambda_max of an eigenvalue lambda of M^-1 L,
 //   y P(y) = (T_m(w0) - T_m(w0 - w1 y)) / (w1 T_m'(w0)),  w0 = 1 + nu^2/(2 m^2), w1 = 1 + w0, nu = 1,
 // T_m the Chebyshev polynomial: P(0) = 1, and y P(y) <= 1.08/m^2, so that steps may be m/1.04 times as long where the
-// tangent is as L is; elsewhere less. It is the polynomial of leapfrog-Chebyshev steps (Carle, Hochbruck and Sturm 2020; damping after van der
-// Houwen and Sommeijer 1980), of L instead of the forces. D_k = (T_k(w0) - T_k(w0 - w1 y))/(w1 y) has
+// tangent is as L is; elsewhere less. It is the polynomial of leapfrog-Chebyshev steps (Carle, Hochbruck and Sturm 2020;
+// damping after van der Houwen and Sommeijer 1980), of L instead of the forces. D_k = (T_k(w0) - T_k(w0 - w1 y))/(w1 y) has
 //   D_0 = 0, D_1 = 1, D_k+1 = 2 (w0 - w1 y) D_k - D_k-1 + 2 T_k(w0), and P = D_m / D_m(0):
 // m - 1 passes over the nodes.
 #ifndef VSC_MECH_COUPLED_MASS_H
