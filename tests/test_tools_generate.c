@@ -63,6 +63,21 @@ static void options_of_a_shape_are_taken(void **state)
   }
 }
 
+// --like is what the others change, wherever it stands.
+static void likeness_comes_first(void **state)
+{
+  (void)state;
+  must("$V generate lv --like land --around 8 --along 4 --layers 1 --base 4 -o first.vtu");
+  must("$V generate lv --around 8 --along 4 --layers 1 --base 4 --like land -o last.vtu");
+  must("cmp first.vtu last.vtu");
+  must("$V generate lv --around 8 --along 4 --layers 1 --base 4 -o human.vtu");
+  assert_int_equal(shell("cmp -s first.vtu human.vtu"), 1);
+  assert_int_equal(shell("$V generate lv --around x --like land"), 2);
+  assert_holds(complained, "--around 'x' does not fit");
+  assert_int_equal(shell("$V generate lv --around 8 --like mars"), 2);
+  assert_holds(complained, "--like 'mars' does not fit");
+}
+
 // A coarse mesh encloses much less than the ellipsoid.
 static void a_ventricle_is_told_as_its_mesh_is(void **state)
 {
@@ -89,6 +104,7 @@ int main(void)
       cmocka_unit_test(names_have_the_ending_of_what_is_written),
       cmocka_unit_test(options_of_other_shapes_are_refused),
       cmocka_unit_test(options_of_a_shape_are_taken),
+      cmocka_unit_test(likeness_comes_first),
       cmocka_unit_test(a_ventricle_is_told_as_its_mesh_is),
   };
   return cmocka_run_group_tests(tests, program_open, program_close);

@@ -264,6 +264,25 @@ static vsc_status generate(const vsc_generate_wish *wish, vsc_error *error)
                   wish->shape);
 }
 
+// Takes in --like alone, or the other options, which change it wherever they stand. False, with a message, for what does
+// not fit.
+static bool read_options(int argc, char **argv, bool like, vsc_generate_wish *wish, bool *help)
+{
+  int option, index = 0;
+  optind = 0;
+  while (!*help && (option = getopt_long(argc, argv, "o:h", vsc_generate_options, &index)) != -1) {
+    if (option == '?') return false;
+    if (option == 'h') *help = true;
+    if (option == 'o') wish->file = optarg;
+    if (option == 'h' || option == 'o' || like != (strcmp(vsc_generate_options[index].name, "like") == 0)) continue;
+    if (vsc_generate_option(wish, option, optarg)) continue;
+    fprintf(stderr, "viscera generate: --%s '%s' does not fit, see `viscera generate --help`\n",
+            vsc_generate_options[index].name, optarg);
+    return false;
+  }
+  return true;
+}
+
 int vsc_verb_generate(int argc, char **argv)
 {
   vsc_generate_wish wish = {.lv = vsc_lv_default(),
@@ -273,21 +292,11 @@ int vsc_verb_generate(int argc, char **argv)
                             .endo_angle = 60,
                             .epi_angle = -60,
                             .bricks = 10};
-  optind = 0;
-  int option, index = 0;
-  while ((option = getopt_long(argc, argv, "o:h", vsc_generate_options, &index)) != -1) {
-    if (option == 'h') {
-      vsc_generate_help();
-      return VSC_OK;
-    }
-    if (option == '?') return VSC_INPUT;
-    if (option == 'o') {
-      wish.file = optarg;
-    } else if (!vsc_generate_option(&wish, option, optarg)) {
-      fprintf(stderr, "viscera generate: --%s '%s' does not fit, see `viscera generate --help`\n",
-              vsc_generate_options[index].name, optarg);
-      return VSC_INPUT;
-    }
+  bool help = false;
+  if (!read_options(argc, argv, true, &wish, &help) || !read_options(argc, argv, false, &wish, &help)) return VSC_INPUT;
+  if (help) {
+    vsc_generate_help();
+    return VSC_OK;
   }
   if (optind + 1 != argc) {
     fprintf(stderr,
