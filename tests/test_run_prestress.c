@@ -174,6 +174,46 @@ static void it_goes_on_from_there(void **state)
   vsc_signals_free(back);
 }
 
+// The last row of a run's prestress.csv: its first number, and the largest distance, mm.
+static double last_distance(const char *run, int *iteration)
+{
+  static char table[PROGRAM_TEXT];
+  char name[64];
+  double relaxation, largest = -1;
+  snprintf(name, sizeof name, "%s/prestress.csv", run);
+  load_text(name, table, sizeof table);
+  for (char *line = table; line != NULL && *line != '\0'; line = strchr(line, '\n') ? strchr(line, '\n') + 1 : NULL)
+    sscanf(line, "%d,%lf,%lf", iteration, &relaxation, &largest);
+  return largest;
+}
+
+// Equilibria are as good as the distance that is asked for, whatever the run's own: it falls as with exact ones, and is
+// never nothing because the mesh was taken for its own loaded shape.
+static void distances_are_true(void **state)
+{
+  (void)state;
+  static const char run[] = "$V run block.yaml -o %s %s --set 'prestress={mesh: loaded, time: 5 ms, tolerance: 1e-8 mm, "
+                            "iterations: 40}' --set 'time.end=6 ms' %s";
+  char command[512];
+  static const char *const methods[][2] = {{"--set solve=equilibrium", "--set solver.tolerance=1e-12"},
+                                           {"--set solve=explicit", ""},
+                                           {"--set solve=equilibrium", "--set solver.tolerance=1e-5"}};
+  double exact = 0;
+  int wanted = 0;
+  for (int k = 0; k < 3; k++) {
+    int iterations = -1;
+    snprintf(command, sizeof command, run, "near", methods[k][0], methods[k][1]);
+    must(command);
+    const double distance = last_distance("near", &iterations);
+    if (k == 0) {
+      exact = distance;
+      wanted = iterations;
+    }
+    assert_int_equal(iterations, wanted);
+    assert_close(distance, exact, 0.1, 0);
+  }
+}
+
 // Quadratic tets, bent: nodes in the middle of edges belong to the shape.
 static void a_curved_octant_comes_back(void **state)
 {
@@ -348,6 +388,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_block_comes_back),          cmocka_unit_test(it_goes_on_from_there),
+      cmocka_unit_test(distances_are_true),
       cmocka_unit_test(a_curved_octant_comes_back),  cmocka_unit_test(under_constant_loads_it_stays),
       cmocka_unit_test(a_resumed_run_has_the_same_bits), cmocka_unit_test(a_ventricle_at_end_diastole),
       cmocka_unit_test(what_is_refused),             cmocka_unit_test(what_is_not_found_is_told),

@@ -9,11 +9,15 @@
 #include "model/small_strain.h"
 #include "solve/equilibrium.h"
 #include "solve/mass_scaling.h"
+#include "solve/newton.h"
 
 // Elements of the mesh are not of the volumes that they have at rest, from which Newton's method finds no way where
 // they are nearly incompressible. So it goes over bodies whose volume moduli are smaller: the first has none above SOFT
 // times the shear modulus, or a part 1/SOFTEST of the scene's, each next is SOFTER times as stiff.
 enum { SOFT = 200, SOFTEST = 729, SOFTER = 3 };
+// Forces that are off by a part of those at work move nodes by that part of the body's size at most, about. Equilibria are
+// found better than the distance that is asked for: else the mesh itself would pass for the loaded shape.
+#define FINER 0.1
 
 // The shape that is tried.
 typedef struct trial {
@@ -71,7 +75,9 @@ static vsc_status balance(const trial *t, vsc_model *model, const double *start,
   // the run's own forces, but balanced
   model->solve.kind = VSC_SOLVE_EQUILIBRIUM;
   model->solve.method = VSC_STATICS_NEWTON;
-  if (t->definition.solve.tolerance == 0) model->solve.tolerance = VSC_USUAL_TOLERANCE;
+  const double finest = FINER * t->problem->scene->prestress.tolerance / vsc_body_size(model);
+  const double given = t->definition.solve.tolerance;
+  model->solve.tolerance = fmin(given > 0 ? given : VSC_USUAL_TOLERANCE, finest);
   vsc_status status = vsc_state_create(model, &state, error);
   if (status != VSC_OK) return status;
   state->time = t->problem->scene->prestress.time;

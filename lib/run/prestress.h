@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The shape at rest of a body whose mesh is its shape under load, as medical images are (the scene's prestress):
 // of the shapes X at rest the one that the loads of prestress.time take to the mesh (solve/prestress.h, with x(X) by
-// Newton's method from the mesh, over softer bodies where tissue is nearly incompressible, or from X).
+// Newton's method from the mesh, over softer bodies where tissue is nearly incompressible, or from X; to solver.tolerance,
+// or better where prestress.tolerance needs it).
 // Surfaces, node sets, observed points and fibres belong to the mesh and so to the loaded shape: selections are made on
 // it, and fibres are carried back to rest by the motion (vsc_axes_carry_back) for each X that is tried. Densities,
 // thicknesses, springs on surfaces and dead tractions refer to X. Directions that supports hold stay where the mesh
