@@ -103,6 +103,28 @@ static void add(double part, const double v[3], double sum[3])
   for (int a = 0; a < 3; a++) sum[a] += part * v[a];
 }
 
+// Vectors on the nodes and their directions.
+typedef struct directions {
+  const double *vectors;
+  double *units;  // node_count x 3: 0 of a vector that is none, infinite of one that is not finite; owned
+  bool sense_kept;
+} directions;
+
+static vsc_status find_directions(const vsc_mesh *mesh, const double *vectors, bool sense_kept, directions *d,
+                                  vsc_error *error)
+{
+  *d = (directions){.vectors = vectors, .sense_kept = sense_kept};
+  if (!VSC_NEW(d->units, 3 * mesh->node_count)) return vsc_fail_memory(error, "fibres on nodes");
+  for (size_t n = 0; n < mesh->node_count; n++) {
+    double frame[9] = {0};
+    const double *v = vectors + 3 * n;
+    vsc_axes_complete(v, NULL, frame);
+    if (!isfinite(v[0]) || !isfinite(v[1]) || !isfinite(v[2])) frame[0] = INFINITY;
+    memcpy(d->units + 3 * n, frame, 3 * sizeof *frame);
+  }
+  return VSC_OK;
+}
+
 // Whether v is the mean of a and b, as raising the order of a mesh makes it.
 static bool is_mean(const double v[3], const double a[3], const double b[3])
 {
@@ -121,58 +143,83 @@ static bool are_opposed(const double a[3], const double b[3])
   return along < 0 && vsc_norm(across) > TANGENT_OF_10_DEGREES * -along;
 }
 
-// sum_i N_i v_i of vectors on an element's nodes, as they are; or, of axes, all turned to the side of the first. In the
-// middle of an edge the mean of its ends stands for the mean of these as turned. Whether some vertex is
-// opposed to the first.
-static bool interpolate(const vsc_mesh *mesh, size_t element, const double *N, const double *vectors, bool sense_kept,
-                        double v[3])
+// Whether the directions at some two vertices of an element are opposed.
+static bool has_opposed(const vsc_mesh *mesh, size_t element, const directions *d)
 {
-  const vsc_cell_kind *kind = vsc_mesh_kind(mesh, element);
   const uint32_t *corner = vsc_mesh_corners(mesh, element);
-  const double *own[VSC_MOST_CORNERS];
-  double side[VSC_MOST_CORNERS];
   bool opposed = false;
-  for (int a = 0; a < 3; a++) v[a] = 0;
-  for (int i = 0; i < kind->corners; i++) {
-    own[i] = vectors + 3 * (size_t)corner[i];
-    side[i] = vsc_dot(own[i], own[0]) < 0 ? -1 : 1;
-    opposed |= i < kind->vertices && are_opposed(own[i], own[0]);
-  }
-  for (int i = 0; i < kind->corners; i++) {
-    const int *ends = i < kind->vertices ? NULL : kind->edges[i - kind->vertices];
-    if (sense_kept)
-      add(N[i], own[i], v);
-    else if (ends == NULL || side[ends[0]] == side[ends[1]] || !is_mean(own[i], own[ends[0]], own[ends[1]]))
-      add(side[i] * N[i], own[i], v);
-    else
-      for (int k = 0; k < 2; k++) add(0.5 * side[ends[k]] * N[i], own[ends[k]], v);
-  }
+  for (int i = 0; i < vsc_mesh_kind(mesh, element)->vertices; i++)
+    for (int j = 0; j < i; j++)
+      opposed |= are_opposed(d->units + 3 * (size_t)corner[i], d->units + 3 * (size_t)corner[j]);
   return opposed;
 }
 
+// sum_i N_i u_i of the directions on an element's nodes, as they are; or, of axes, the top eigenvector of
+// sum_i N_i u_i u_i^T, on the first one's side. In the middle of an edge the mean of its ends' vectors stands for the
+// mean of what the ends add. Returns false where a vector is not finite.
+static bool interpolate(const vsc_mesh *mesh, size_t element, const double *N, const directions *d, double v[3])
+{
+  const vsc_cell_kind *kind = vsc_mesh_kind(mesh, element);
+  const uint32_t *corner = vsc_mesh_corners(mesh, element);
+  double sum[3] = {0}, square[6] = {0};
+  for (int i = 0; i < kind->corners; i++) {
+    const size_t own = corner[i];
+    if (isinf(d->units[3 * own])) return false;
+    size_t from[2] = {own, own};
+    if (i >= kind->vertices) {
+      const int *edge = kind->edges[i - kind->vertices];
+      const size_t ends[2] = {corner[edge[0]], corner[edge[1]]};
+      if (is_mean(d->vectors + 3 * own, d->vectors + 3 * ends[0], d->vectors + 3 * ends[1]))
+        memcpy(from, ends, sizeof from);
+    }
+    for (int k = 0; k < 2; k++) {
+      add(0.5 * N[i], d->units + 3 * from[k], sum);
+      vsc_add_square(d->units + 3 * from[k], 0.5 * N[i], square);
+    }
+  }
+  memcpy(v, sum, sizeof sum);
+  if (d->sense_kept) return true;
+  memset(v, 0, sizeof sum);
+  if (vsc_top_axis(square, v, NULL) && vsc_dot(v, d->units + 3 * (size_t)corner[0]) < 0)
+    for (int a = 0; a < 3; a++) v[a] = -v[a];
+  return true;
+}
+
 // Fibres from vectors on the nodes: at each point of quadratic tets, the mean of other elements.
-static void from_nodes(const vsc_mesh *mesh, const double *fibers, const double *sheets, bool sense_kept,
-                       vsc_axes *axes, vsc_fiber_report *report)
+static void set_from_nodes(const vsc_mesh *mesh, const directions *fibers, const directions *sheets, vsc_axes *axes,
+                           vsc_fiber_report *report)
 {
   const vsc_cell_rule rule = vsc_cell_rule_of(VSC_TET10);
   double ones[VSC_MOST_CORNERS];
   for (int i = 0; i < VSC_MOST_CORNERS; i++) ones[i] = 1;
   for (size_t e = 0; e < mesh->element_count; e++) {
-    int known = 1;
-    bool opposed = false;
-    for (int q = 0; q < axes->points; q++) {
+    bool known = true;
+    for (int q = 0; q < axes->points && known; q++) {
       const double *N = axes->points > 1 ? rule.N[q] : ones;
       double fiber[3], sheet[3];
-      opposed = interpolate(mesh, e, N, fibers, sense_kept, fiber);
-      if (sheets != NULL) interpolate(mesh, e, N, sheets, sense_kept, sheet);
-      known &= vsc_axes_complete(fiber, sheets != NULL ? sheet : NULL, vsc_axes_frame(axes, e, q));
-      if (known && sheets != NULL && q == 0) judge_sheet(fiber, sheet, report);
+      const bool sheeted = sheets->units != NULL && interpolate(mesh, e, N, sheets, sheet);
+      known = interpolate(mesh, e, N, fibers, fiber) &&
+              vsc_axes_complete(fiber, sheeted ? sheet : NULL, vsc_axes_frame(axes, e, q));
+      if (known && sheeted && q == 0) judge_sheet(fiber, sheet, report);
+      if (known && sheets->units != NULL && !sheeted && q == 0) report->invalid_sheets++;
     }
     vsc_axes_finish(axes, e, known);
     report->invalid += !known;
-    report->opposed += opposed;
+    report->opposed += known && has_opposed(mesh, e, fibers);
   }
   report->constant = all_parallel(axes);
+}
+
+static vsc_status from_nodes(const vsc_mesh *mesh, const double *fibers, const double *sheets, bool sense_kept,
+                             vsc_axes *axes, vsc_fiber_report *report, vsc_error *error)
+{
+  directions f = {0}, s = {0};
+  vsc_status status = find_directions(mesh, fibers, sense_kept, &f, error);
+  if (status == VSC_OK && sheets != NULL) status = find_directions(mesh, sheets, sense_kept, &s, error);
+  if (status == VSC_OK) set_from_nodes(mesh, &f, &s, axes, report);
+  vsc_free(f.units);
+  vsc_free(s.units);
+  return status;
 }
 
 static vsc_status from_arrays(const vsc_mesh *mesh, const vsc_fiber_def *definition, vsc_axes *axes,
@@ -187,8 +234,7 @@ static vsc_status from_arrays(const vsc_mesh *mesh, const vsc_fiber_def *definit
       return vsc_fail(error, VSC_INPUT,
                       "the mesh has no vectors '%s' on its nodes for the sheet, as '%s' for the fibre",
                       name, definition->fiber_array);
-    from_nodes(mesh, on_nodes, sheets, definition->sense_kept, axes, report);
-    return VSC_OK;
+    return from_nodes(mesh, on_nodes, sheets, definition->sense_kept, axes, report, error);
   }
   vsc_status status = find_vectors(mesh, definition->fiber_array, "fibre", &fibers, error);
   if (status != VSC_OK) return status;

@@ -17,9 +17,9 @@
 // array, unless its name is the default "sheet": then sheets follow the rule. Fibres that are zero
 // (below 1e-6) or not finite are none: the element is passive, unless `fill` is set. The
 // vectors may be on the nodes instead: quadratic tets interpolate them at each of their points, other
-// elements take the mean of their corners. Their sense is ignored, as measured fibres want it (those of the
-// vertices are turned to the side of the first), or kept, as rules for coarse walls mean it: from -60 to +60 degrees
-// through 0, not through 90.
+// elements take the mean of their corners. Their lengths count for nothing. Their sense is ignored, as measured fibres
+// want it (the axis is the top eigenvector of the mean of f f^T), or kept, as rules for coarse walls mean it: from -60
+// to +60 degrees through 0, not through 90.
 vsc_status vsc_fibers_make(const vsc_mesh *mesh, const vsc_fiber_def *definition,
                            const vsc_surface *surfaces, size_t surface_count, vsc_axes **axes,
                            vsc_fiber_report *report, vsc_error *error);

@@ -174,8 +174,8 @@ static void linear_field(const double at[3], double f[3])
   f[2] = 0.4 * at[1];
 }
 
-// Vectors on nodes are interpolated, whatever the sign of each; vectors on elements are the same at all
-// points.
+// Vectors on nodes are interpolated, whatever the sign of each: f f^T, which leaves the third power of their turn of up
+// to 0.5 radians from node to node; vectors on elements are the same at all points.
 static void arrays_on_nodes_and_elements(void **state)
 {
   (void)state;
@@ -189,7 +189,7 @@ static void arrays_on_nodes_and_elements(void **state)
     for (size_t a = 0; a < 3 && n % 5 == 0; a++) on_nodes[3 * n + a] *= -1;
   }
   vsc_axes *axes = make(mesh, &definition, NULL, 0, &report);
-  assert_fibers(mesh, axes, linear_field, 1e-13);
+  assert_fibers(mesh, axes, linear_field, 0.02);
   assert_false(report.constant);
   vsc_axes_free(axes);
   double *on_elements = vsc_arrays_add(&mesh->element_data, "fiber", 3, mesh->element_count)->values;

@@ -115,7 +115,7 @@ static const vsc_row array_rows[] = {
     {"sheet", NAME(vsc_fiber_def, sheet_array), .text = "sheet",
      .meaning = "likewise; empty: by rule"},
     {"sense", CHOICE(vsc_fiber_def, sense_kept, sense_words), .text = "ignored",
-     .meaning = "of vectors on points, between which they turn: by less than 90 degrees, or kept: as they are"},
+     .meaning = "of vectors on points, whose lengths mean nothing, between which they turn: by less than 90 degrees, or kept: as they are"},
 };
 GROUP(static, array, -1);
 
