@@ -52,24 +52,24 @@ static vsc_status add_robin(const vsc_robin_def *def, size_t r, const uint32_t *
   return status;
 }
 
-// int rho N_i g dV of quadratic tets, which is below 0 at corners: what their lumped masses, which are
-// not, would weigh is another load.
+// int rho N_i g dV of quadratic tets by the points of their frames, where their edges are. It is below 0 at corners:
+// what their lumped masses, which are not, would weigh is another load.
 static void weigh_quadratic(const vsc_model *model, const double *density, double *weight)
 {
+  const vsc_cell_rule *rule = &model->rules[VSC_TETS10];
   for (size_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];
     if (patch->family != VSC_TETS10) continue;
     for (size_t slot = 0; slot < VSC_WIDTH * (size_t)patch->pack_count; slot++) {
       const size_t k = patch->first_pack + slot / VSC_WIDTH, l = slot % VSC_WIDTH;
-      double volume = 0;
-      for (int q = 0; q < vsc_family_frames(model, patch->family); q++)
-        volume += vsc_pack_frames(model, patch, k)[q].V[l];
-      for (int i = 0; i < vsc_family_corners(patch->family) && volume > 0; i++) {
+      const uint32_t element = model->mesh_element[VSC_WIDTH * k + l];
+      if (element == VSC_NO_ELEMENT) continue;
+      for (int i = 0; i < vsc_family_corners(patch->family); i++) {
         const size_t node = vsc_node_of(model, patch, vsc_pack_nodes(model, patch, k)[i][l]);
-        double part = 0;
-        for (int j = 0; j < vsc_family_corners(patch->family); j++) part += vsc_quadratic_mass(i, j);
-        for (size_t a = 0; a < 3; a++)
-          weight[4 * node + a] += density[model->mesh_element[VSC_WIDTH * k + l]] * volume * part * model->gravity[a];
+        double volume = 0;
+        for (int q = 0; q < rule->points; q++)
+          volume += vsc_pack_frames(model, patch, k)[q].V[l] * rule->N[q][i];
+        for (size_t a = 0; a < 3; a++) weight[4 * node + a] += density[element] * volume * model->gravity[a];
       }
     }
   }

@@ -12,8 +12,8 @@
 void vsc_lumped_volumes(const vsc_mesh *mesh, const vsc_cell_rule *rule, size_t element,
                         double volumes[VSC_MOST_CORNERS]);
 
-// int N_i N_j dV / V of nodes i, j of a quadratic tet with straight edges; with bent ones it stands for
-// them too.
+// int N_i N_j dV / V of nodes i, j of a quadratic tet with straight edges; consistent masses take it for bent ones
+// too.
 double vsc_quadratic_mass(int i, int j);
 
 // masses[n] (node_count) = density x the volume of what is nearest to node n, mg: each element (of

@@ -275,7 +275,8 @@ typedef struct vsc_model {
   double *mass;          // node_count: lumped, mg
   double *inverse_mass;  // node_count x 4: 1/mass, 0 in held directions and in the fourth
   double *weight;        // node_count x 4: mass . gravity, mN; of quadratic tets in equilibrium or with
-                         // consistent masses int rho N_i gravity dV; NULL without gravity
+                         // consistent masses int rho N_i gravity dV by the points of their frames; NULL
+                         // without gravity
 
   // volume groups of the nodes, when terms.nodal_volume
   double *group_volume;   // node_count: a quarter of the tets' rest volume round the node, mm^3; 1
