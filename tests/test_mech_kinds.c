@@ -308,6 +308,38 @@ static void constant_stress_is_in_equilibrium(void **state)
   }
 }
 
+// Cells whose frames share their volume anyhow do not look at `volume`: the same bits, with a stabilisation of their own
+// and with the one that is taken out of the volume modulus.
+static void volume_is_a_word_about_linear_tets(void **state)
+{
+  (void)state;
+  static const kinds_mesh kinds[] = {ALL_HEXES, ALL_TETS10};
+  for (int k = 0; k < 4; k++) {
+    vsc_material_def material = springs_material(NULL, NULL);
+    if (k % 2 == 1) {
+      material = tissue_law(0);
+      material.stabilization = 0;
+    }
+    double *forces[2], *x = NULL;
+    size_t count = 0;
+    for (int alone = 0; alone < 2; alone++) {
+      random_body body;
+      kinds_open(&body, mesh_of(kinds[k / 2], 3, 33), &material, alone ? VSC_VOLUME_ELEMENT : VSC_VOLUME_NODAL, 34);
+      assert_true(body.model->materials[0].stabilization > 0);
+      count = 3 * body.mesh->node_count;
+      if (x == NULL) x = deformed(body.mesh, 0.12, 0.05, 35);
+      forces[alone] = numbers(count);
+      body_force(&body, x, NULL, 0, forces[alone]);
+      body_close(&body);
+    }
+    assert_true(largest_of(forces[0], count) > 0.1);
+    assert_memory_equal(forces[0], forces[1], count * sizeof(double));
+    vsc_free(forces[0]);
+    vsc_free(forces[1]);
+    vsc_free(x);
+  }
+}
+
 // The number of singular values below 1e-7 of the largest of the tangent at rest of a body, whose mesh
 // becomes the body's (differences of forces over 1e-5 mm: rounding 1e-10, third derivatives 1e-10).
 static int zero_modes_of(vsc_mesh *mesh, const vsc_material_def *material)
@@ -388,6 +420,7 @@ int main(void)
       cmocka_unit_test(damping_dissipates_what_is_observed),
       cmocka_unit_test(threads_do_not_change_bits),
       cmocka_unit_test(constant_stress_is_in_equilibrium),
+      cmocka_unit_test(volume_is_a_word_about_linear_tets),
       cmocka_unit_test(only_rigid_motion_is_free),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -152,6 +152,10 @@ static void test_warnings_about_materials(void **state)
   assert_int_equal(warnings(), 0);
   assert_warns("--set volume=element --set 'materials[0].volume_modulus=150 kPa'",
                "stabilization does nothing with volume: element");
+  must("$V generate block --cells 6,4,4 --size 20,10,10 --element hex -o bricks.vtu");
+  must("$V check block.yaml --set mesh.file=bricks.vtu --set 'fibers={source: constant, constant: {fiber: [1, 0, 0]}}' --set volume=element");
+  assert_true(strstr(said, "stabilization does nothing") == NULL);
+  assert_holds(said, "own K of a frame 10 kPa");
 }
 
 static void test_warnings_about_the_setting(void **state)

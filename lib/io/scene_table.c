@@ -203,7 +203,7 @@ static const vsc_row vsc_scene_group_rows[] = {
     {"vessels", SCENE_PARTS(vessels, vessel_count, vsc_vessel_group), .commented = true,
      .meaning = "vessels that the mesh does not resolve"},
     {"volume", CHOICE(vsc_scene, definition.volume, volumes), .text = "nodal",
-     .meaning = "elements that share a volume ratio: all round a node; or element: each alone"},
+     .meaning = "linear tets that share a volume ratio: all round a node; or element: each alone"},
     {"tets", CHOICE(vsc_scene, definition.tets, tets_kinds), .text = "plain",
      .meaning = "linear tets alone; or smoothed: laws see the mean strain round each edge (walls of two "
                 "layers and more)"},

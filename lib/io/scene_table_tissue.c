@@ -215,7 +215,8 @@ static const vsc_row vsc_material_group_rows[] = {
      .meaning = "against a change of volume"},
     {"stabilization", QUANTITY(vsc_material_def, stabilization, VSC_PRESSURE),
      .allowed = OF_STRAIN, .text = "10 kPa",
-     .meaning = "the same of each frame, beside a shared volume (volume: nodal); 0, default: springs none, else the shear modulus out of volume_modulus"},
+     .meaning = "the same of each frame, beside a shared volume (volume: nodal; other cells than linear tets in any case); "
+                "0, default: springs none, else the shear modulus out of volume_modulus"},
     {"axes", PARTS(vsc_material_def, axes, axis_count, vsc_axis_group), .allowed = OF_SPRINGS,
      .commented = true, .meaning = "more axes than f, s, n"},
     {"pairs", PARTS(vsc_material_def, pairs, pair_count, vsc_pair_group), .allowed = OF_SPRINGS,

@@ -85,13 +85,26 @@ static void copy_law(const vsc_material_def *def, vsc_material *material)
   if (def->isochoric) material->rest_shear = 0;
 }
 
-// What all laws of strain have.
-static void copy_moduli(const vsc_material_def *def, vsc_volume_kind volume, vsc_material *material)
+// What shares volumes: linear tets by nodes, and cells of other kinds their own frames.
+typedef struct volume_sharing {
+  bool nodes;   // volume: nodal
+  bool frames;  // that, or some cell is no linear tet
+} volume_sharing;
+
+static volume_sharing sharing_of(const vsc_mesh *mesh, const vsc_definition *definition)
 {
-  const bool nodal = volume == VSC_VOLUME_NODAL;
+  const bool nodes = definition->volume == VSC_VOLUME_NODAL;
+  bool others = false;
+  for (size_t e = 0; e < mesh->element_count; e++) others |= mesh->kinds[e] != VSC_TET;
+  return (volume_sharing){nodes, nodes || others};
+}
+
+// What all laws of strain have. Tets that are alone among cells of other kinds are as stiff as these.
+static void copy_moduli(const vsc_material_def *def, volume_sharing sharing, vsc_material *material)
+{
   material->volume_modulus = def->volume_modulus;
-  material->stabilization = nodal ? def->stabilization : 0;
-  material->element_modulus = nodal ? def->stabilization : def->volume_modulus;
+  material->stabilization = sharing.frames ? def->stabilization : 0;
+  material->element_modulus = material->stabilization + (sharing.nodes ? 0 : def->volume_modulus);
   material->viscosity = def->viscosity;
   if (def->law != VSC_LAW_SPRINGS) return;
   memcpy(material->axial, def->axial, sizeof material->axial);
@@ -102,14 +115,14 @@ static void copy_moduli(const vsc_material_def *def, vsc_volume_kind volume, vsc
 
 // Without a stabilisation of its own a tissue law takes its shear modulus out of the volume modulus, half of that at
 // most: frames that share a volume collapse under large loads otherwise.
-static void complete_stabilization(const vsc_definition *definition, const vsc_model *model,
-                                   vsc_material *material)
+static void complete_stabilization(volume_sharing sharing, const vsc_model *model, vsc_material *material)
 {
-  if (!vsc_law_is_of_strain(material->law) || material->law == VSC_LAW_SPRINGS ||
-      definition->volume != VSC_VOLUME_NODAL || material->stabilization > 0)
+  if (!vsc_law_is_of_strain(material->law) || material->law == VSC_LAW_SPRINGS || !sharing.frames ||
+      material->stabilization > 0)
     return;
   const double own = fmin(vsc_material_shear(model, material), 0.5 * material->volume_modulus);
-  material->stabilization = material->element_modulus = own;
+  material->stabilization = own;
+  if (sharing.nodes) material->element_modulus = own;
   material->volume_modulus -= own;
 }
 
@@ -127,19 +140,18 @@ static bool needs_general(const vsc_material *material)
           (material->active == VSC_ACTIVE_TENSION && !plain_tension));
 }
 
-static void copy_material(const vsc_material_def *def, const vsc_definition *definition,
-                          vsc_material *material, vsc_model *model)
+static void copy_material(const vsc_material_def *def, volume_sharing sharing, vsc_material *material, vsc_model *model)
 {
   vsc_copy_name(material->name, def->name);
   material->density = def->density;
   material->law = def->law;
   material->damped = is_damped(def);
-  if (vsc_law_is_of_strain(def->law)) copy_moduli(def, definition->volume, material);
+  if (vsc_law_is_of_strain(def->law)) copy_moduli(def, sharing, material);
   material->branch_count = def->prony_count;
   for (size_t k = 0; k < def->prony_count; k++) material->branches[k] = def->prony[k];
   if (def->law == VSC_LAW_SPRINGS) copy_axes(def, material, model);
   copy_law(def, material);
-  complete_stabilization(definition, model, material);
+  complete_stabilization(sharing, model, material);
   if (def->law == VSC_LAW_PAPER) material->paper = def->paper;
   if (def->law == VSC_LAW_CLASSICAL) material->classical = def->classical;
   material->active = def->active.kind;
@@ -153,9 +165,10 @@ static void copy_material(const vsc_material_def *def, const vsc_definition *def
   material->delay = def->active.delay;
 }
 
-static vsc_status build_materials(const vsc_definition *definition, vsc_model *model,
+static vsc_status build_materials(const vsc_mesh *mesh, const vsc_definition *definition, vsc_model *model,
                                   vsc_error *error)
 {
+  const volume_sharing sharing = sharing_of(mesh, definition);
   size_t axes = 0, pairs = 0;
   for (size_t m = 0; m < definition->material_count; m++) {
     axes += definition->materials[m].axis_count;
@@ -166,7 +179,7 @@ static vsc_status build_materials(const vsc_definition *definition, vsc_model *m
       !VSC_NEW(model->pairs, pairs))
     return vsc_fail_memory(error, "materials");
   for (size_t m = 0; m < model->material_count; m++) {
-    copy_material(&definition->materials[m], definition, &model->materials[m], model);
+    copy_material(&definition->materials[m], sharing, &model->materials[m], model);
     const vsc_material *material = &model->materials[m];
     model->terms.damping |= material->damped;
     model->terms.paper |= material->law == VSC_LAW_PAPER;
@@ -400,7 +413,7 @@ static vsc_status build(const vsc_mesh *mesh, const vsc_mesh *shown, const vsc_a
   model->masses = definition->solve.kind == VSC_SOLVE_EQUILIBRIUM ? VSC_MASS_LUMPED : definition->masses;
   vsc_status status = check_order(mesh, definition, error);
   if (status == VSC_OK) status = vsc_terms_materials(mesh, definition, material_of, error);
-  if (status == VSC_OK) status = build_materials(definition, model, error);
+  if (status == VSC_OK) status = build_materials(mesh, definition, model, error);
   if (status == VSC_OK) status = vsc_terms_selections(shown, definition, model, error);
   if (status == VSC_OK)
     status = build_elements(mesh, axes, definition, material_of, mixed, model, error);

@@ -189,7 +189,8 @@ typedef struct vsc_material_def {
                           // HOLZAPFEL_OGDEN the ground alone; default false: on all of it
   double volume_modulus;  // K, kPa, of U(J) = K/4 (J^2 - 1 - 2 ln J); default 0
   double stabilization;   // Ks, kPa: the same energy of each frame beside a shared volume; 0: law SPRINGS
-                          // has none, other laws take their shear modulus (K/2 at most) out of K
+                          // has none, other laws take their shear modulus (K/2 at most) out of K. Nothing
+                          // is shared, and Ks means nothing, in a mesh of linear tets with VOLUME_ELEMENT
   vsc_active_def active;
   vsc_law law;
   vsc_paper_def paper;          // law PAPER; axial, angular, damping and volume_modulus are not used
@@ -262,8 +263,8 @@ typedef struct vsc_obstacle_def {
   char set[VSC_NAME];  // node set that it stops; empty: all nodes
 } vsc_obstacle_def;
 
-// Which elements share one volume ratio J and one pressure. Hexahedra, wedges and pyramids always
-// share theirs among their own frames.
+// Which linear tets share one volume ratio J and one pressure. Cells of other kinds share theirs among their own
+// frames in any case; beside them a tet that is alone has K + Ks, so that a material has one bulk modulus.
 typedef enum vsc_volume_kind {
   VSC_VOLUME_NODAL,    // all tets round a node (Bonet & Burton), default
   VSC_VOLUME_ELEMENT,  // each tet alone; locks when K is far above the shear modulus

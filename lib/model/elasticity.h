@@ -29,7 +29,7 @@ void vsc_pair_row(const double d[3], const double e[3], double row[6]);
 void vsc_stiffness_add(double C[36], double modulus, const double row[6]);
 
 // C (kPa) of a passive material of law SPRINGS with its further axes and pairs; K is its
-// volume_modulus, with `volume` NODAL plus its stabilization, as in the model. Inclusions are not
+// volume_modulus, with `volume` NODAL plus its stabilization, as in a model of linear tets. Inclusions are not
 // in it. VSC_INPUT for another law: constants per element are no stiffness per volume.
 vsc_status vsc_stiffness_of(const vsc_material_def *material, vsc_volume_kind volume, double C[36],
                             vsc_error *error);

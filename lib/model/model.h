@@ -118,9 +118,9 @@ typedef struct vsc_material {
   bool damped;             // whether anything in it resists velocity, whatever its law
   double volume_modulus;   // K, kPa; of the shared volume where there is one
   double stabilization;    // Ks, kPa: of each frame's own U(J) beside the shared volume of its nodes
-                           // or its element; 0 when elements are alone, so that tets and other
-                           // kinds have one bulk modulus
-  double element_modulus;  // of a tet's own U(J), kPa: K, or Ks beside node-averaged volume
+                           // or its element; 0 when all elements are tets and alone
+  double element_modulus;  // of a tet's own U(J), kPa: Ks beside node-averaged volume, else K + Ks, so
+                           // that tets and other kinds have one bulk modulus
   vsc_active_kind active;
   double active_stiffness;  // kPa
   double rest_stretch;

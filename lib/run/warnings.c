@@ -56,19 +56,19 @@ static void warn_volume(writer *w, const vsc_model *model, const vsc_material *m
   const double shear = material->law == VSC_LAW_SPRINGS
                            ? fmax(largest(material->angular), stiff / 2)
                            : vsc_material_shear(model, material);
-  const double K = material->volume_modulus;
+  const double K = material->volume_modulus, alone = material->element_modulus;
   if (K > 0 && K < stiff)
     warn(w,
          "material %s: volume_modulus %g kPa is below the stiffest axial modulus %g kPa: inverted "
          "elements "
          "could rest there; 100 times the shear modulus is usual",
          material->name, K, stiff);
-  if (!model->terms.nodal_volume && has_family(model, VSC_TETS) && K > 20 * shear)
+  if (!model->terms.nodal_volume && has_family(model, VSC_TETS) && alone > 20 * shear)
     warn(w,
          "material %s: volume_modulus is %.0f times the shear modulus and each tet keeps its own "
          "volume: "
          "linear tets lock; use `volume: nodal`",
-         material->name, K / shear);
+         material->name, alone / shear);
   if (has_family(model, VSC_WEDGES) && K > 20 * shear)
     warn(w,
          "material %s: volume_modulus is %.0f times the shear modulus, and wedges, which each keep their own volume, lock "
@@ -91,8 +91,8 @@ static void warn_material(writer *w, const vsc_problem *problem, size_t m)
     warn(w, "material %s: no element has its regions", material->name);
   if (!takes_elements) return;
   if (vsc_law_is_of_strain(material->law)) warn_volume(w, problem->model, material);
-  if (vsc_law_is_of_strain(material->law) && definition->volume == VSC_VOLUME_ELEMENT &&
-      definition->materials[m].stabilization > 0)
+  if (vsc_law_is_of_strain(material->law) && definition->materials[m].stabilization > 0 &&
+      material->stabilization == 0)
     warn(w, "material %s: stabilization does nothing with volume: element", material->name);
   if (material->law == VSC_LAW_PAPER) warn_paper(w, material);
 }
