@@ -302,33 +302,48 @@ static void warn_setting(writer *w, const vsc_problem *problem)
     warn(w, "materials: no damping, so vibrations never die away");
 }
 
-__attribute__((format(printf, 4, 5))) static void warn_period(writer *w, const vsc_model *model, const vsc_curve *curve,
-                                                              const char *format, ...)
+// Takes a curve that the model goes by, the key that has it, and the delay of what it drives, ms.
+typedef void curve_judge(writer *w, const vsc_model *model, const vsc_curve *curve, double delay, const char *key);
+
+static void judge_curves(writer *w, const vsc_model *model, curve_judge *judge)
 {
-  char load[256];
-  const double cycles = curve->period > 0 ? model->cycle / curve->period : 1;
-  if (cycles > 0.5 && fabs(cycles - round(cycles)) <= 1e-6) return;
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(load, sizeof load, format, arguments);
-  va_end(arguments);
-  warn(w, "time.cycle: %g ms is no multiple of the period of %s, %g ms, so that a cycle does not have the loads of the last: "
-       "give a multiple", model->cycle, load, curve->period);
+  char key[VSC_NAME + 64];
+  for (size_t m = 0; m < model->material_count; m++) {
+    const vsc_material *material = &model->materials[m];
+    snprintf(key, sizeof key, "material %s", material->name);
+    if (material->active != VSC_ACTIVE_NONE) judge(w, model, &material->curve, material->delay, key);
+  }
+  for (size_t p = 0; p < model->pressure_count; p++) {
+    snprintf(key, sizeof key, "pressures[%zu]", p);
+    judge(w, model, &model->pressures[p].curve, 0, key);
+  }
+  for (size_t s = 0; s < model->moved_count; s++) {
+    snprintf(key, sizeof key, "the support of %s", model->moved[s].set);
+    judge(w, model, &model->moved[s].curve, 0, key);
+  }
+  for (size_t o = 0; o < model->obstacle_count; o++) {
+    snprintf(key, sizeof key, "obstacles[%zu]", o);
+    if (vsc_norm(model->obstacles[o].motion) > 0) judge(w, model, &model->obstacles[o].curve, 0, key);
+  }
 }
 
-static void warn_cycle(writer *w, const vsc_model *model)
+static void judge_cycle(writer *w, const vsc_model *model, const vsc_curve *curve, double delay, const char *key)
 {
-  if (!(model->cycle > 0)) return;
-  for (size_t m = 0; m < model->material_count; m++)
-    if (model->materials[m].active != VSC_ACTIVE_NONE)
-      warn_period(w, model, &model->materials[m].curve, "material %s", model->materials[m].name);
-  for (size_t p = 0; p < model->pressure_count; p++)
-    warn_period(w, model, &model->pressures[p].curve, "pressures[%zu]", p);
-  for (size_t s = 0; s < model->moved_count; s++)
-    warn_period(w, model, &model->moved[s].curve, "the support of %s", model->moved[s].set);
-  for (size_t o = 0; o < model->obstacle_count; o++)
-    if (vsc_norm(model->obstacles[o].motion) > 0)
-      warn_period(w, model, &model->obstacles[o].curve, "obstacles[%zu]", o);
+  const double cycles = curve->period > 0 ? model->cycle / curve->period : 1;
+  (void)delay;
+  if (cycles > 0.5 && fabs(cycles - round(cycles)) <= 1e-6) return;
+  warn(w, "time.cycle: %g ms is no multiple of the period of %s, %g ms, so that a cycle does not have the loads of the last: "
+       "give a multiple", model->cycle, key, curve->period);
+}
+
+// Where a period ends at another value than the next begins with, a load comes or goes at once.
+static void judge_jump(writer *w, const vsc_model *model, const vsc_curve *curve, double delay, const char *key)
+{
+  if (!(curve->period > 0) || delay + curve->period > model->end_time) return;
+  const double first = curve->values[0], last = curve->values[curve->intervals];
+  if (fabs(last - first) > 0.01 * curve->range)
+    warn(w, "%s: at the end of each period of its curve, %g ms, the value jumps from %.3g to %.3g: take a longer period, or "
+         "values that meet there", key, curve->period, last, first);
 }
 
 static void warn_idle_keys(writer *w, const vsc_scene *scene)
@@ -353,7 +368,8 @@ int vsc_check_warnings(const vsc_problem *problem, bool thorough, FILE *stream, 
   warn_vessels(&w, problem);
   warn_prestress(&w, problem);
   warn_setting(&w, problem);
-  warn_cycle(&w, problem->model);
+  if (problem->model->cycle > 0) judge_curves(&w, problem->model, judge_cycle);
+  judge_curves(&w, problem->model, judge_jump);
   warn_idle_keys(&w, problem->scene);
   return w.count;
 }
