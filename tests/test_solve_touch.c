@@ -244,6 +244,7 @@ static double hertz(size_t n)
   body.material.law = VSC_LAW_NEO_HOOKEAN;
   body.material.shear = G;
   body.material.isochoric = true;
+  body.material.stabilization = NO_VOLUME;  // by default half of a K this small, and stiff where bricks are long
   body_hold_planes(&body);
   move(&thing, -0.1, 100);
   body.definition.obstacles = &thing;
@@ -256,7 +257,8 @@ static double hertz(size_t n)
   return force / (4.0 / 3 * E / (1 - nu * nu) * sqrt(10) * pow(0.1, 1.5));
 }
 
-// With 4 and 9 nodes in contact on a quarter; 1.13 and 1.02 were measured, and 1.009 with n = 14 (16 nodes).
+// With 4 and 9 nodes in contact on a quarter; 1.13 and 1.02 were measured, and 1.009 with n = 14 (16 nodes); with the
+// stabilization by default 1.21, 1.06 and 1.03.
 static void a_ball_on_a_block_comes_near_to_hertz(void **state)
 {
   (void)state;
