@@ -93,6 +93,25 @@ static void test_checkpoints_load_hdf5(void **state)
   assert_loaded(true, true);
 }
 
+#if !defined __SANITIZE_ADDRESS__ && !defined __SANITIZE_THREAD__  // which need all the address space
+// With however little address space (kB) a run comes to an end: OpenBLAS would ask for its own for ever.
+static void test_short_address_space(void **state)
+{
+  (void)state;
+  int short_ones = 0;
+  for (int space = 80000; space <= 400000; space += 20000) {
+    char command[256];
+    snprintf(command, sizeof command, "ulimit -v %d; timeout -s KILL 60 $V run block.yaml -q -t 1 -o little --set "
+             "solve=equilibrium --set solver.linear=direct --set 'time.end=1 ms'", space);
+    const int code = shell(command);
+    if (code != 0 && code != 4) fail_msg("%d kB: exit code %d: %s", space, code, complained);
+    short_ones += strstr(complained, "does not fit into memory") != NULL;
+  }
+  assert_true(short_ones > 0);
+  must("$V run block.yaml -q -t 1 -o little --set solve=equilibrium --set solver.linear=direct --set 'time.end=1 ms'");
+}
+#endif
+
 static void test_missing_modules_are_named(void **state)
 {
   (void)state;
@@ -112,6 +131,9 @@ int main(void)
       cmocka_unit_test(test_cholmod_comes_alone),
       cmocka_unit_test(test_checkpoints_load_hdf5),
       cmocka_unit_test(test_missing_modules_are_named),
+#if !defined __SANITIZE_ADDRESS__ && !defined __SANITIZE_THREAD__
+      cmocka_unit_test(test_short_address_space),
+#endif
   };
   return cmocka_run_group_tests(tests, block_open, program_close);
 }

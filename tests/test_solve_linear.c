@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Linear systems: what is solved, and how, where the tangent is not positive definite.
+#include <pthread.h>
+#include <signal.h>
+#include <stdatomic.h>
+
 #include "base/mem.h"
 #include "small_body.h"
+#include "solve/cholmod.h"
 #include "solve/linear.h"
 
 typedef struct system_of {
@@ -114,12 +119,62 @@ static void what_is_not_solved_is_counted(void **state)
   close_system(&s);
 }
 
+static pthread_t first_thread;
+static atomic_bool over;
+static volatile sig_atomic_t heard;
+
+static void hear(int number)
+{
+  (void)number;
+  heard = 1;
+}
+
+static void *terminate(void *nothing)
+{
+  while (!over) pthread_kill(first_thread, SIGTERM);
+  return nothing;
+}
+
+// METIS would have a handler of its own for SIGTERM while it works: it must not take signals for its failure, and
+// the program hears them.
+static void termination_does_not_stop_the_ordering(void **state)
+{
+  (void)state;
+  enum { NODES = 3000, NEAR = 8 };
+  static int start[NODES + 1], row[NODES * (NEAR + 1)], order[NODES];
+  cholmod_common common;
+  const vsc_cholmod *cholmod;
+  pthread_t other;
+  struct sigaction usual, heeded = {.sa_handler = hear, .sa_flags = SA_RESTART};
+  assert_int_equal(vsc_cholmod_load(&cholmod, NULL), VSC_OK);
+  cholmod->start(&common);
+  common.print = 0;
+  for (int n = 0; n < NODES; n++) {
+    start[n + 1] = start[n];
+    for (int k = 0; k <= NEAR && n + k * k < NODES; k++) row[start[n + 1]++] = n + k * k;
+  }
+  cholmod_sparse graph = {.nrow = NODES, .ncol = NODES, .nzmax = (size_t)start[NODES], .p = start, .i = row, .stype = -1,
+                          .itype = CHOLMOD_INT, .xtype = CHOLMOD_PATTERN, .dtype = CHOLMOD_DOUBLE, .sorted = 1, .packed = 1};
+  sigaction(SIGTERM, &heeded, &usual);
+  first_thread = pthread_self();
+  assert_int_equal(pthread_create(&other, NULL, terminate, NULL), 0);
+  int done = 0;
+  for (int k = 0; k < 20; k++) done += cholmod->metis(&graph, NULL, 0, 1, order, &common);
+  over = true;
+  assert_int_equal(pthread_join(other, NULL), 0);
+  sigaction(SIGTERM, &usual, NULL);
+  cholmod->finish(&common);
+  assert_int_equal(done, 20);
+  assert_true(heard);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_way_solves_to_the_tolerance),
       cmocka_unit_test(a_raised_diagonal_factorizes_what_buckles),
       cmocka_unit_test(what_is_not_solved_is_counted),
+      cmocka_unit_test(termination_does_not_stop_the_ordering),
   };
   vsc_parallel_set_threads(1);
   return cmocka_run_group_tests(tests, NULL, NULL);

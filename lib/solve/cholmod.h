@@ -7,7 +7,9 @@
 
 #include "base/status.h"
 
-// CHOLMOD's functions of these names, as its manual describes them.
+// CHOLMOD's functions of these names, as its manual describes them. METIS, which takes SIGTERM for an error of
+// its own, leaves that to the handler that it has.
+// factorize_p finds memory short, too, where OpenBLAS would not get its own.
 typedef struct vsc_cholmod {
   __typeof__(cholmod_start) *start;
   __typeof__(cholmod_finish) *finish;

@@ -2,6 +2,7 @@
 #include "solve/linear.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -28,6 +29,7 @@ struct vsc_linear {
   cholmod_sparse view;     // of the preconditioner's numbers
   int *column, *row;       // its pattern as CHOLMOD reads it
   cholmod_factor *factor;  // analysed when first needed
+  bool too_large;          // the factor, for this machine
   bool made;               // the factor holds its numbers; else they are to be made of `kept` again
   double *kept;            // implicit steps: the matrix that the factor was made of
   size_t kept_count;
@@ -182,9 +184,19 @@ static bool make_view(vsc_linear *linear, const vsc_block_matrix *matrix)
   return true;
 }
 
-static bool analyze(vsc_linear *linear, const vsc_block_matrix *matrix)
+static vsc_status fail_size(vsc_linear *linear, vsc_error *error)
 {
-  if (linear->factor != NULL) return true;
+  char size[40] = "";
+  linear->too_large = true;
+  if (linear->counts.factor_entries > 0)
+    snprintf(size, sizeof size, ", %.3g GB,", 8e-9 * linear->counts.factor_entries);
+  return vsc_fail(error, VSC_SYSTEM, "the factor of the tangent%s does not fit into memory; take solver.linear: "
+                  "iterative, or auto", size);
+}
+
+static vsc_status analyze(vsc_linear *linear, const vsc_block_matrix *matrix, vsc_error *error)
+{
+  if (linear->factor != NULL) return VSC_OK;
   cholmod_common *common = &linear->common;
   int *order = NULL;
   bool good = make_view(linear, matrix) && (order = order_unknowns(linear, matrix)) != NULL;
@@ -201,7 +213,12 @@ static bool analyze(vsc_linear *linear, const vsc_block_matrix *matrix)
     good = linear->factor != NULL && linear->right != NULL;
   }
   vsc_free(order);
-  return good;
+  if (good) return VSC_OK;
+  // with status CHOLMOD_OK memory was short outside of CHOLMOD
+  const int why = common->status;
+  if (why == CHOLMOD_OK || why == CHOLMOD_OUT_OF_MEMORY || why == CHOLMOD_TOO_LARGE) return fail_size(linear, error);
+  return vsc_fail(error, VSC_SYSTEM, "no order was found for the factor of the tangent (status %d of CHOLMOD); take "
+                  "solver.linear: iterative", why);
 }
 
 // Whether the factor would take most of the machine's memory.
@@ -209,14 +226,6 @@ static bool is_too_large(const vsc_linear *linear)
 {
   const double memory = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGE_SIZE);
   return linear->counts.factor_entries * sizeof(double) > MOST_MEMORY * memory;
-}
-
-static vsc_status fail_size(const vsc_linear *linear, vsc_error *error)
-{
-  return vsc_fail(error, VSC_SYSTEM,
-                  "the factor of the tangent, %.3g GB, does not fit into memory; take solver.linear: "
-                  "iterative, or auto",
-                  8e-9 * linear->counts.factor_entries);
 }
 
 // The factor of `values`, which have the pattern's places, with the diagonal raised by past.shift.
@@ -243,11 +252,13 @@ static vsc_status factorize(vsc_linear *linear, vsc_tangent *tangent, const doub
   vsc_tangent_precondition(linear->model, tangent, x);
   const double largest = vsc_block_matrix_largest(matrix, free);
   vsc_block_matrix_hold(matrix, free, largest);
-  if (!analyze(linear, matrix) || is_too_large(linear)) return fail_size(linear, error);
+  vsc_status status = analyze(linear, matrix, error);
+  if (status == VSC_OK && is_too_large(linear)) status = fail_size(linear, error);
+  if (status != VSC_OK) return status;
   if (linear->kept_count > 0) memcpy(linear->kept, matrix->values, linear->kept_count * sizeof *linear->kept);
   vsc_linear_past *past = &linear->past;
   past->factorized = past->shift = past->spent = 0;
-  vsc_status status = VSC_NUMERICAL;
+  status = VSC_NUMERICAL;
   for (int k = 0; k <= MOST_SHIFTS && status == VSC_NUMERICAL; k++) {
     status = make_factor(linear, matrix->values, error);
     past->factorized = status == VSC_OK;
@@ -260,8 +271,8 @@ static vsc_status factorize(vsc_linear *linear, vsc_tangent *tangent, const doub
 static vsc_status make_again(vsc_linear *linear, const vsc_tangent *tangent, vsc_error *error)
 {
   if (linear->past.factorized == 0 || linear->made) return VSC_OK;
-  if (!analyze(linear, &tangent->preconditioner)) return fail_size(linear, error);
-  return make_factor(linear, linear->kept, error);
+  const vsc_status status = analyze(linear, &tangent->preconditioner, error);
+  return status != VSC_OK ? status : make_factor(linear, linear->kept, error);
 }
 
 // ---- preconditioners: z = P^-1 r
@@ -413,7 +424,7 @@ vsc_status vsc_linear_solve(vsc_linear *linear, vsc_tangent *tangent, const doub
   if (status != VSC_OK) return status;
   if (solve_with_old_factor(linear, tangent, free, b, tolerance, d)) return VSC_OK;
   status = factorize(linear, tangent, free, x, error);
-  if (status == VSC_SYSTEM && linear->kind == VSC_LINEAR_AUTO) {
+  if (status != VSC_OK && linear->too_large && linear->kind == VSC_LINEAR_AUTO) {
     linear->past.budget = linear->past.plain_left = INFINITY;
     solve_plainly(linear, tangent, free, x, b, tolerance, d, indefinite);
     return VSC_OK;

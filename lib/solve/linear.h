@@ -49,8 +49,7 @@ void vsc_linear_resume(vsc_linear *linear);
 // 0 (all node_count x 4). Where negative curvature is met or iterations run out d is as good as it has become, VSC_OK
 // too, as Newton's next step mends it; counts.unfinished tells those. VSC_NUMERICAL when A is not positive definite, even
 // with up to 10 % of its largest diagonal added; VSC_SYSTEM when the factor does not fit into memory (with AUTO diagonal blocks
-// do the rest then). *indefinite
-// tells whether a direction of negative curvature was met.
+// do the rest then) or no order is found for it. *indefinite tells whether a direction of negative curvature was met.
 vsc_status vsc_linear_solve(vsc_linear *linear, vsc_tangent *tangent, const double *free,
                             const double *x, const double *b, double tolerance, double *d,
                             bool *indefinite, vsc_error *error);
