@@ -73,7 +73,7 @@ static void pictures_of_tables(void **state)
   save_text("stability.csv", "stress,law,element,method,outcome\nflat,springs,tets,explicit,survives\n"
                              "flat,springs,hexes,implicit,stops\n");
   // a full disk leaves nothing behind
-  assert_int_equal(shell("trap '' XFSZ; ulimit -f 1; $V plot --errors error.csv -o full.png >/dev/null"), 4);
+  assert_int_equal(shell("ulimit -f 1; $V plot --errors error.csv -o full.png >/dev/null"), 4);
   assert_int_equal(shell("ls full.png*"), 2);
   must("$V plot --outcomes stability.csv -o stability.png");
   assert_true(load_text("stability.png", first, sizeof first) > 1000);

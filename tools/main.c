@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The program: `viscera VERB ...` goes to the verb's own file.
 #include <errno.h>
+#include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
@@ -93,6 +94,7 @@ static int finish(int code)
 
 int main(int argc, char **argv)
 {
+  signal(SIGXFSZ, SIG_IGN);  // a limit of file sizes then is an error of writing like a full disk
   if (argc < 2) {
     print_help(stderr);
     return VSC_INPUT;
