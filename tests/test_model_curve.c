@@ -382,6 +382,32 @@ static void bad_tables_are_refused(void **state)
   refuse(0, NULL, NULL, "at least 2");
 }
 
+// Numbers of which formulas make none are refused; whose curve it is comes before the message.
+static void extreme_curves_are_refused(void **state)
+{
+  (void)state;
+  const double extremes[][4] = {{0, 1e308, 1e-308, 1e30}, {0, 1e-308, 1e308, 1e30}, {1e30, 1e308, 1e-308, 1e30}};
+  int refused = 0;
+  trap_off();
+  for (size_t k = 0; k < sizeof extremes / sizeof extremes[0]; k++) {
+    vsc_curve_def d = vsc_default_curve(VSC_CURVE_DOUBLE_HILL);
+    vsc_curve curve;
+    vsc_error error = {.text = ""};
+    d.start = extremes[k][0], d.rise = extremes[k][1], d.fall = extremes[k][2], d.rise_power = extremes[k][3];
+    if (vsc_curve_build(&d, 100, &curve, &error) == VSC_OK) {
+      for (size_t i = 0; i <= curve.intervals; i++) assert_true(isfinite(curve.values[i]));
+    } else {
+      refused++;
+      assert_int_equal(vsc_curve_of("materials", 2, "active.", error.status, &error), VSC_INPUT);
+      assert_non_null(strstr(error.text, "materials[2].active.curve: its value at "));
+      assert_non_null(strstr(error.text, " ms is not a finite number"));
+    }
+    vsc_curve_free(&curve);
+  }
+  trap_on();
+  assert_true(refused > 0);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -402,6 +428,7 @@ int main(void)
       cmocka_unit_test(short_pulses_of_a_period_are_seen),
       cmocka_unit_test(usual_curves_keep_their_places),
       cmocka_unit_test(bad_tables_are_refused),
+      cmocka_unit_test(extreme_curves_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

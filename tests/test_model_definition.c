@@ -148,6 +148,9 @@ SPOIL(period, d->pressures[0].curve.period = 200)
 SPOIL(cut_off, d->pressures[0].curve.start = 600; d->pressures[0].curve.period = 800)
 SPOIL(early_start, d->pressures[0].curve.start = -10; d->pressures[0].curve.period = 800)
 SPOIL(long_table, d->materials[0].active.curve.period = 100)
+SPOIL(late_hill, d->pressures[0].curve = vsc_default_curve(VSC_CURVE_DOUBLE_HILL);
+      d->pressures[0].curve.start = 800; d->pressures[0].curve.period = 800)
+SPOIL(short_end, d->end_time = 1e-320)
 SPOIL(negative_period, d->pressures[0].curve.period = -1)
 SPOIL(rise, d->pressures[0].curve = vsc_default_curve(VSC_CURVE_DOUBLE_HILL);
       d->pressures[0].curve.rise = 0)
@@ -241,6 +244,7 @@ static const struct {
     {cut_off, "pressures[0].curve.period: 800 ms: ", "shorter than start + duration (900 ms): "},
     {early_start, "pressures[0].curve.start: -10 ms: ", "0 ms or later"},
     {long_table, "materials[0].active.curve.period: 100 ms: ", "shorter than the table's last time ("},
+    {late_hill, "pressures[0].curve.start: 800 ms: ", "its period (800 ms) is over"},
     {negative_period, "pressures[0].curve.period: ", "zero or more"},
     {rise, "pressures[0].curve.rise: ", "above zero"},
     {fall, "pressures[0].curve.fall: -20 ms: ", "above zero"},
@@ -279,6 +283,7 @@ static const struct {
     {velocity_unit, "initial_velocity.unit: 0 m/s: ", "not zero"},
     {gravity, "gravity: ", "finite"},
     {end_time, "time.end: 0 ms: ", "above zero"},
+    {short_end, "time.end: ", "1e-9 ms at least"},
     {step, "time.step: -0.1 ms: ", "zero or more"},
     {safety, "time.safety: 0: ", "up to 1"},
 };

@@ -283,6 +283,28 @@ static void test_maps(void **state)
 }
 
 // Curves come from files too.
+// A curve that has no finite values is refused under its key, wherever it is.
+static void test_extreme_curves(void **state)
+{
+  (void)state;
+  static const char *const keys[][2] = {{"materials[0].active.curve", ""},
+                                        {"pressures[0].curve", ""},
+                                        {"supports[0].curve", "--set 'supports[0].motion=[1 mm, 0 mm, 0 mm]'"},
+                                        {"obstacles[0].curve", "--set 'obstacles=[{kind: plane, point: [0 mm, 0 mm, -20 mm], "
+                                                               "normal: [0, 0, 1], motion: [0 mm, 0 mm, 1 mm]}]'"}};
+  for (size_t k = 0; k < sizeof keys / sizeof keys[0]; k++) {
+    char options[400], part[80];
+    snprintf(options, sizeof options, "%s --set '%s={kind: double_hill, start: 1e30 ms, rise: 1e308 ms, fall: 1e-308 ms, "
+             "rise_power: 1e30}'", keys[k][1], keys[k][0]);
+    snprintf(part, sizeof part, "block.yaml: %s: its value at 0 ms is not a finite number", keys[k][0]);
+    refused("block.yaml", &(broken){options, part});
+  }
+  assert_int_equal(shell("$V check block.yaml --set 'materials[0].active.curve={kind: bestel, start: 0 ms, stop: 10 ms, "
+                         "width: 1e-300 ms, rate_up: 1e300 1/s, rate_down: -1e300 1/s}'"), 3);
+  assert_holds(complained, "block.yaml: materials[0].active.curve: its equation cannot be followed at ");
+  assert_null(strstr(complained, "success"));
+}
+
 static void test_curve_files(void **state)
 {
   (void)state;
@@ -331,6 +353,7 @@ int main(void)
       cmocka_unit_test(test_scene_files), cmocka_unit_test(test_line_numbers),
       cmocka_unit_test(test_mesh_files),  cmocka_unit_test(test_bad_numbers),
       cmocka_unit_test(test_bad_cells),   cmocka_unit_test(test_maps),
+      cmocka_unit_test(test_extreme_curves),
       cmocka_unit_test(test_curve_files), cmocka_unit_test(test_unwritable_output),
       cmocka_unit_test(test_full_disk),   cmocka_unit_test(test_too_many_pressures),
   };

@@ -206,15 +206,33 @@ static vsc_status tabulate(const vsc_curve_def *d, vsc_curve *curve, vsc_error *
   return VSC_OK;
 }
 
+// Of numbers that are too large or too small a formula has no value.
+static vsc_status check_values(const vsc_curve *curve, vsc_error *error)
+{
+  for (size_t k = 0; k <= curve->intervals; k++)
+    if (!isfinite(curve->values[k]))
+      return vsc_fail(error, VSC_INPUT, "curve: its value at %g ms is not a finite number: give times and powers that are "
+                      "less extreme", curve->spacing * (double)k);
+  return VSC_OK;
+}
+
 vsc_status vsc_curve_build(const vsc_curve_def *d, double end_time, vsc_curve *curve,
                            vsc_error *error)
 {
   *curve = (vsc_curve){.period = d->period, .hash = hash_definition(d)};
   place_table(d, end_time, curve);
   if (!VSC_NEW(curve->values, curve->intervals + 1)) return vsc_fail_memory(error, "a curve");
-  const vsc_status status = tabulate(d, curve, error);
+  vsc_status status = tabulate(d, curve, error);
+  if (status == VSC_OK) status = check_values(curve, error);
   if (status == VSC_OK) curve->range = find_range(d, curve);
   return status;
+}
+
+vsc_status vsc_curve_of(const char *list, size_t item, const char *rest, vsc_status status, vsc_error *error)
+{
+  if (error == NULL || (status != VSC_INPUT && status != VSC_NUMERICAL)) return status;
+  const vsc_error bare = *error;
+  return vsc_fail(error, status, "%s[%zu].%s%s", list, item, rest, bare.text);
 }
 
 void vsc_curve_free(vsc_curve *curve)

@@ -39,7 +39,7 @@ static vsc_status follow(gsl_odeiv2_driver *driver, double spacing, size_t inter
       return vsc_fail(error, VSC_NUMERICAL,
                       "curve: its equation cannot be followed at %g ms (%s); give slower rates or a "
                       "wider width",
-                      time, gsl_strerror(outcome));
+                      time, outcome != GSL_SUCCESS ? gsl_strerror(outcome) : "no finite value");
     values[k] = y[0];
   }
   return VSC_OK;

@@ -8,6 +8,8 @@
 #include "model/law_constants.h"
 #include "model/prony_check.h"
 
+#define SHORTEST_END 1e-9  // ms; steps of far shorter runs are lost among the smallest numbers
+
 // Fails for `key` with a text.
 static void need_text(vsc_checker *c, bool fine, const char *key, const char *text, const char *remedy)
 {
@@ -316,7 +318,8 @@ vsc_status vsc_definition_check(const vsc_definition *d, vsc_error *error)
   for (size_t i = 0; i < d->vessel_count; i++) check_vessel(&c, d, i);
   for (size_t i = 0; i < d->membrane_count; i++) check_membrane(&c, d, i);
   c.where[0] = '\0';
-  need_positive(&c, "time.end", d->end_time, "ms", "give a time above zero");
+  need(&c, isfinite(d->end_time) && d->end_time >= SHORTEST_END, "time.end", d->end_time, "ms",
+       "give a time above zero, of 1e-9 ms at least");
   need_not_negative(&c, "time.step", d->step, "ms");
   need(&c, d->safety > 0 && d->safety <= 1, "time.safety", d->safety, "",
        "give a fraction above 0 and up to 1");

@@ -32,6 +32,15 @@ static void need_period(vsc_checker *c, const vsc_curve_def *curve, double last,
   need(c, curve->period == 0 || last <= curve->period, "curve.period", curve->period, "ms", remedy);
 }
 
+// What begins with the end of its period or later never acts.
+static void need_begin(vsc_checker *c, const vsc_curve_def *curve)
+{
+  char remedy[128];
+  snprintf(remedy, sizeof remedy, "begins when its period (%g ms) is over: start earlier, or give a longer period",
+           curve->period);
+  need(c, curve->period == 0 || curve->start < curve->period, "curve.start", curve->start, "ms", remedy);
+}
+
 static void check_table(vsc_checker *c, const vsc_curve_def *curve)
 {
   char key[64];
@@ -80,6 +89,7 @@ void vsc_check_curve(vsc_checker *c, const vsc_curve_def *curve)
   }
   need_not_negative(c, "curve.period", curve->period, "ms");
   if (lasting) need_period(c, curve, curve->start + curve->duration, "start + duration");
+  if (curve->kind == VSC_CURVE_DOUBLE_HILL) need_begin(c, curve);
   need(c, curve->period == 0 || curve->start >= 0, "curve.start", curve->start, "ms",
        "a curve with a period starts at 0 ms or later");
   if (curve->kind == VSC_CURVE_BESTEL || curve->kind == VSC_CURVE_BESTEL_PRESSURE)

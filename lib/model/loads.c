@@ -26,7 +26,7 @@ static vsc_status add_pressure(const vsc_definition *definition, size_t p, const
   if (status != VSC_OK) return status;
   vsc_facets_renumber(&load->facets, number);
   load->rule = vsc_face_rule_of(load->facets.mid ? 6 : 3, VSC_FACE_FLUX);
-  return vsc_curve_build(&def->curve, definition->end_time, &load->curve, error);
+  return vsc_curve_of("pressures", p, "", vsc_curve_build(&def->curve, definition->end_time, &load->curve, error), error);
 }
 
 static vsc_status add_robin(const vsc_robin_def *def, size_t r, const uint32_t *number,

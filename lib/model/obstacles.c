@@ -85,7 +85,8 @@ vsc_status vsc_terms_obstacles(const vsc_mesh *mesh, const vsc_definition *defin
     vsc_normalize(obstacle->normal);
     obstacle->radius = def->radius;
     obstacle->friction = def->friction;
-    status = vsc_curve_build(&def->curve, definition->end_time, &obstacle->curve, error);
+    status = vsc_curve_of("obstacles", o, "",
+                          vsc_curve_build(&def->curve, definition->end_time, &obstacle->curve, error), error);
     if (status == VSC_OK) status = list_nodes(definition, o, number, model, obstacle, error);
     if (status == VSC_OK) status = check_start(mesh, model, o, error);
   }

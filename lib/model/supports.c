@@ -120,7 +120,8 @@ static vsc_status add_moved(const supporting *all, size_t s, const vsc_node_set 
     moved->nodes[k] = all->number[set->nodes[k]];
     moved->mass += model->mass[moved->nodes[k]];
   }
-  return vsc_curve_build(&def->curve, all->definition->end_time, &moved->curve, error);
+  return vsc_curve_of("supports", s, "", vsc_curve_build(&def->curve, all->definition->end_time, &moved->curve, error),
+                      error);
 }
 
 static void count_held(vsc_model *model)

@@ -135,7 +135,8 @@ static vsc_status build_curves(const vsc_definition *definition, vsc_model *mode
     if (active->kind == VSC_ACTIVE_NONE) continue;
     vsc_model_delays(model, m, delays);
     const double end = definition->end_time - fmin(active->delay + delays[0], 0);
-    const vsc_status status = vsc_curve_build(&active->curve, end, &model->materials[m].curve, error);
+    const vsc_status status = vsc_curve_of(
+        "materials", m, "active.", vsc_curve_build(&active->curve, end, &model->materials[m].curve, error), error);
     if (status != VSC_OK) return status;
   }
   return VSC_OK;
