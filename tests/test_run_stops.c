@@ -222,6 +222,14 @@ static void test_interrupted(void **state)
   assert_string_equal(summary("told", "state_hash"), summary("untold", "state_hash"));
 }
 
+// Moduli whose forces are too large for numbers are not said to be none.
+static void test_endless_stiffness(void **state)
+{
+  (void)state;
+  assert_int_equal(shell("$V run block.yaml -q -o endless --set 'materials[0].axial.f=1e308 kPa'"), 3);
+  assert_holds(complained, "the stiffness over the mass is not a finite number; check moduli");
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -235,6 +243,7 @@ int main(void)
       cmocka_unit_test(test_jerks_of_viscous_tissue),
       cmocka_unit_test(test_cycles),
       cmocka_unit_test(test_cycles_of_rest),
+      cmocka_unit_test(test_endless_stiffness),
   };
   return cmocka_run_group_tests(tests, block_open, program_close);
 }

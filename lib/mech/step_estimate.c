@@ -402,7 +402,8 @@ void vsc_limit_refresh(const vsc_model *model, vsc_state *state, double time, in
     if (model->terms.damping) follow_step(&s, i);
     const double stable = step_of(&s);
     limit->step = model->safety * stable;
-    limit->eigenvalue = 4 / (ALLOWANCE * stable * stable);
+    // forces that overflow are not those of a body that gives way
+    limit->eigenvalue = isfinite(s.square) ? 4 / (ALLOWANCE * stable * stable) : INFINITY;
   }
   if (s.square > 0) pass(&s, keep_image);
   limit->refreshes++;

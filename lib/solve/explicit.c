@@ -202,6 +202,17 @@ static double busiest_time(const vsc_model *model, const vsc_state *state)
   return busiest;
 }
 
+// The estimate is not a number where forces or their products overflow.
+static vsc_status fail_no_step(bool finite, vsc_error *error)
+{
+  if (finite)
+    return vsc_fail(error, VSC_NUMERICAL,
+                    "no stable time step was found: every node is held or nothing is stiff; check "
+                    "supports and moduli");
+  return vsc_fail(error, VSC_NUMERICAL, "no stable time step was found: the stiffness over the mass is not a finite number; "
+                  "check moduli, damping and densities, and their units");
+}
+
 vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
 {
   if (model->solve.kind != VSC_SOLVE_EXPLICIT)
@@ -211,13 +222,11 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
   vsc_supports_place(model, state->time, 1, state->x);
   const double busiest = busiest_time(model, state);
   vsc_limit_refresh(model, state, busiest, vsc_limit_enough(model));
-  const double active_step = state->limit.step;
+  const double active_step = state->limit.step, active_eigenvalue = state->limit.eigenvalue;
   if (busiest != state->time) vsc_limit_refresh(model, state, state->time, vsc_limit_enough(model));
   const double allowed = fmin(active_step, state->limit.step);
   if (!(allowed > 0) || isinf(allowed))
-    return vsc_fail(error, VSC_NUMERICAL,
-                    "no stable time step was found: every node is held or nothing is stiff; check "
-                    "supports and moduli");
+    return fail_no_step(isfinite(active_eigenvalue) && isfinite(state->limit.eigenvalue), error);
   if (model->step > allowed / model->safety && !model->force_step)
     return vsc_fail(error, VSC_INPUT,
                     "time.step: %.6g ms is above the stable step of %.6g ms (at rest %.6g, at full "
