@@ -291,6 +291,33 @@ static void a_resumed_run_has_the_same_bits(void **state)
   must("diff -r one/frames cut/frames");
 }
 
+// A resumed run has the shape at rest from its checkpoint, with the last row of its table: there is no search, which would
+// not come to an end here. Of another mesh or other loads it is refused.
+static void a_resumed_run_does_not_search(void **state)
+{
+  (void)state;
+  static const char *const others[] = {"prestress.tolerance=0.5 mm", "prestress.time=1 ms", "pressures[0].peak=2 kPa",
+                                       "mesh.unit=cm"};
+  char command[256];
+  must("$V run block.yaml -o known --set 'prestress={mesh: loaded, time: 2 ms}' --set 'time.end=6 ms' --stop '3.3 ms'");
+  must("cp -r known before");
+  for (size_t k = 0; k < sizeof others / sizeof others[0]; k++) {
+    snprintf(command, sizeof command, "$V run block.yaml -q -o known --set 'prestress={mesh: loaded, time: 2 ms}' "
+             "--set 'time.end=6 ms' --set '%s' --resume", others[k]);
+    assert_int_equal(shell(command), 2);
+    assert_holds(complained, "known/checkpoint.h5: belongs to another model");
+  }
+  must("diff -r known before");
+  must("$V run block.yaml -q -o known --set 'prestress={mesh: loaded, time: 2 ms, iterations: 1}' --set 'time.end=6 ms' "
+       "--resume");
+  assert_string_equal(summary("known", "state_hash"), summary("one", "state_hash"));
+  assert_string_equal(summary("known", "prestress_iterations"), summary("one", "prestress_iterations"));
+  assert_string_equal(summary("known", "prestress_rest_to_mesh_mm"), summary("one", "prestress_rest_to_mesh_mm"));
+  assert_same_files("known/prestress.csv", "one/prestress.csv");
+  assert_int_equal(shell("$V run block.yaml -q -o anew --set 'prestress={mesh: loaded, time: 2 ms, iterations: 1}' "
+                         "--set 'time.end=6 ms'"), 3);
+}
+
 // The shipped ventricle on a coarse mesh, given at the end of its filling.
 static void a_ventricle_at_end_diastole(void **state)
 {
@@ -390,7 +417,8 @@ int main(void)
       cmocka_unit_test(a_block_comes_back),          cmocka_unit_test(it_goes_on_from_there),
       cmocka_unit_test(distances_are_true),
       cmocka_unit_test(a_curved_octant_comes_back),  cmocka_unit_test(under_constant_loads_it_stays),
-      cmocka_unit_test(a_resumed_run_has_the_same_bits), cmocka_unit_test(a_ventricle_at_end_diastole),
+      cmocka_unit_test(a_resumed_run_has_the_same_bits), cmocka_unit_test(a_resumed_run_does_not_search),
+      cmocka_unit_test(a_ventricle_at_end_diastole),
       cmocka_unit_test(what_is_refused),             cmocka_unit_test(what_is_not_found_is_told),
   };
   return cmocka_run_group_tests(tests, block_open, program_close);

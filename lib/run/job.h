@@ -41,6 +41,10 @@ typedef struct vsc_job {
 // DIRECTORY/what, or DIRECTORY/NAME.what when `what` begins with a dot.
 void vsc_job_path(const vsc_job *job, const char *what, char path[VSC_PATH]);
 
+// Of a run that is resumed under another name (its own DIRECTORY/scene.yaml, a scene file that was renamed): the name that its
+// files have, which is that of the one PVD file in the folder. VSC_INPUT where there are several and none has job->name.
+vsc_status vsc_job_take_name(vsc_job *job, vsc_error *error);
+
 // VSC_INPUT when a file that the run would write, replace or remove is one that it is made of: the scene's own, its
 // mesh, map, vessels or curves. Of a resumed run the scene may be DIRECTORY/scene.yaml.
 vsc_status vsc_job_spare_inputs(const vsc_job *job, vsc_error *error);
@@ -66,6 +70,14 @@ vsc_status vsc_job_trim_convergence(const vsc_job *job, vsc_error *error);
 // Writes (behind all frames) or reads DIRECTORY/checkpoint.h5.
 vsc_status vsc_job_save(vsc_job *job, vsc_error *error);
 vsc_status vsc_job_load(vsc_job *job, vsc_error *error);
+
+// With prestress: takes the shape at rest from DIRECTORY/checkpoint.h5, which must be of this scene and mesh. The model is
+// that of the run which has found it, to the bit, whatever the processor.
+vsc_status vsc_job_load_unloaded(vsc_job *job, vsc_error *error);
+
+// That of the model; with prestress that of the model on the mesh and of what is asked for: a shape that was found has other
+// bits on other processors.
+uint64_t vsc_job_hash(const vsc_job *job);
 
 // Memory for the last good state, which is the present one (after vsc_solve_start, with a watch); then: remembers all
 // that a checkpoint would hold, or goes back to what was remembered last.

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/hash.h"
 #include "base/mem.h"
 #include "base/vec3.h"
 #include "model/small_strain.h"
@@ -164,30 +165,45 @@ static vsc_status find(trial *t, vsc_error *error)
   vsc_unloaded *unloaded = t->problem->unloaded;
   const vsc_prestress search = {.node_count = t->mesh.node_count, .target = t->target, .tolerance = def->tolerance,
                                 .most = def->iterations, .context = t, .load = load, .watch = keep_row};
-  vsc_status status = vsc_prestress_find(&search, unloaded->rest, unloaded->start, error);
-  if (status == VSC_OK) status = take_model(t, error);
-  if (status == VSC_OK) measure(t->target, t->mesh.node_count, unloaded);
-  return status;
+  return vsc_prestress_find(&search, unloaded->rest, unloaded->start, error);
 }
 
-vsc_status vsc_unload(vsc_problem *problem, vsc_error *error)
+// The model on the mesh tells of all that the shape depends on but for this.
+static uint64_t hash_problem(const vsc_problem *problem)
+{
+  const vsc_prestress_def *def = &problem->scene->prestress;
+  const double asked[] = {def->time, def->tolerance};
+  return vsc_hash(problem->model->hash, asked, sizeof asked);
+}
+
+vsc_status vsc_unloaded_create(vsc_problem *problem, vsc_error *error)
+{
+  const size_t count = problem->mesh->node_count;
+  vsc_unloaded *made;
+  vsc_unloaded_free(problem->unloaded);
+  problem->unloaded = NULL;
+  if (!VSC_NEW(made, 1)) return vsc_fail_memory(error, "the shape at rest");
+  problem->unloaded = made;
+  made->hash = hash_problem(problem);
+  if (VSC_NEW(made->rest, 4 * count) && VSC_NEW(made->start, 4 * count) &&
+      VSC_NEW(made->rows, (size_t)problem->scene->prestress.iterations + 1))
+    return VSC_OK;
+  return vsc_fail_memory(error, "the shape at rest");
+}
+
+// The shape in problem->unloaded, looked for or known, and its model.
+static vsc_status unload(vsc_problem *problem, bool known, vsc_error *error)
 {
   const vsc_mesh *mesh = problem->mesh;
   const size_t count = mesh->node_count;
   const vsc_definition *definition = &problem->scene->definition;
   trial t = {.problem = problem, .definition = *definition, .mesh = *mesh,
              .softest = softest_of(problem->model)};
-  vsc_unloaded *made;
   double *target = NULL;
-  vsc_unloaded_free(problem->unloaded);
-  problem->unloaded = NULL;
+  vsc_status status = VSC_OK;
   t.mesh.nodes = NULL;
   t.definition.materials = NULL;
-  if (!VSC_NEW(made, 1)) return vsc_fail_memory(error, "the shape at rest");
-  problem->unloaded = made;
-  vsc_status status = VSC_OK;
-  if (!VSC_NEW(made->rest, 4 * count) || !VSC_NEW(made->start, 4 * count) || !VSC_NEW(target, 4 * count) ||
-      !VSC_NEW(made->rows, (size_t)problem->scene->prestress.iterations + 1) || !VSC_NEW(t.mesh.nodes, 3 * count) ||
+  if (!VSC_NEW(target, 4 * count) || !VSC_NEW(t.mesh.nodes, 3 * count) ||
       !VSC_NEW(t.definition.materials, definition->material_count) ||
       (t.axes = vsc_axes_create_for(mesh)) == NULL)
     status = vsc_fail_memory(error, "the shape at rest");
@@ -195,10 +211,24 @@ vsc_status vsc_unload(vsc_problem *problem, vsc_error *error)
   if (status == VSC_OK)
     memcpy(t.definition.materials, definition->materials, definition->material_count * sizeof *definition->materials);
   t.target = target;
-  if (status == VSC_OK) status = find(&t, error);
+  if (status == VSC_OK && !known) status = find(&t, error);
+  if (status == VSC_OK) status = take_model(&t, error);
+  if (status == VSC_OK) measure(target, count, problem->unloaded);
   vsc_free(target);
   free_trial(&t);
   return status;
+}
+
+vsc_status vsc_unload(vsc_problem *problem, vsc_error *error)
+{
+  const vsc_status status = vsc_unloaded_create(problem, error);
+  return status == VSC_OK ? unload(problem, false, error) : status;
+}
+
+vsc_status vsc_unload_again(vsc_problem *problem, vsc_error *error)
+{
+  problem->unloaded->row_count = 1;
+  return unload(problem, true, error);
 }
 
 void vsc_unloaded_free(vsc_unloaded *unloaded)

@@ -20,13 +20,20 @@ typedef struct vsc_unloaded {
   double *start;            // node_count x 4: its equilibrium under them, the mesh to within prestress.tolerance
   double furthest;          // largest distance from the mesh to `rest`, mm
   size_t row_count;
-  vsc_prestress_row *rows;  // of each iteration; the last one is of `start`
+  vsc_prestress_row *rows;  // of each iteration, or the last one alone; that is of `start`
+  uint64_t hash;            // of the model on the mesh and of what is asked for
 } vsc_unloaded;
 
 // Finds the shape at rest, keeps it in problem->unloaded and puts a model of it in the place of problem->model. The
 // same bits for any number of threads. VSC_NUMERICAL, with how far it is off, where it is not found: the model is the
 // one before then, and problem->unloaded has the rows of the iterations. VSC_INPUT where the model has no tangent.
 vsc_status vsc_unload(vsc_problem *problem, vsc_error *error);
+
+// Memory in problem->unloaded for a shape that was found in another run, and the hash that this must have had. Once
+// `rest`, `start` and the last row are there vsc_unload_again puts its model in the place of problem->model, as vsc_unload
+// did then.
+vsc_status vsc_unloaded_create(vsc_problem *problem, vsc_error *error);
+vsc_status vsc_unload_again(vsc_problem *problem, vsc_error *error);
 
 void vsc_unloaded_free(vsc_unloaded *unloaded);  // NULL is fine
 

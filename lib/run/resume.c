@@ -6,9 +6,10 @@
 #include "io/checkpoint.h"
 #include "mech/prony.h"
 #include "run/job.h"
+#include "run/prestress.h"
 
 // Scalars of a checkpoint, in the order of list_scalars.
-enum { CLOCK = 0, LIMIT = 2, WORKS = 10, WATCH = 15, SCALARS = 27, BLOCKS = 28 };
+enum { CLOCK = 0, LIMIT = 2, WORKS = 10, WATCH = 15, SCALARS = 27, BLOCKS = 28, UNLOADED = 3 };
 
 static void list_scalars(vsc_job *job, double *places[SCALARS])
 {
@@ -137,18 +138,65 @@ static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[
 _Static_assert(offsetof(vsc_watch, high) == offsetof(vsc_watch, low) + VSC_SIGNALS * sizeof(double),
                "signal_extrema covers low and high in one block");
 
+// The shape at rest, and the last row of how it was found.
+static void list_unloaded(const vsc_job *job, double row[4], vsc_block blocks[UNLOADED])
+{
+  const vsc_unloaded *unloaded = job->problem->unloaded;
+  const size_t nodes = job->problem->mesh->node_count;
+  const vsc_block list[UNLOADED] = {{"shape_at_rest", "mm", nodes, 4, unloaded->rest},
+                                    {"shape_loaded", "mm", nodes, 4, unloaded->start},
+                                    {"prestress", "1, 1, mm, mm", 4, 1, row}};
+  memcpy(blocks, list, sizeof list);
+}
+
+uint64_t vsc_job_hash(const vsc_job *job)
+{
+  return job->problem->unloaded != NULL ? job->problem->unloaded->hash : job->problem->model->hash;
+}
+
 vsc_status vsc_job_save(vsc_job *job, vsc_error *error)
 {
-  double scalars[SCALARS];
-  vsc_block blocks[BLOCKS];
+  const vsc_unloaded *unloaded = job->problem->unloaded;
+  double scalars[SCALARS], row[4];
+  vsc_block blocks[BLOCKS + UNLOADED];
   char path[VSC_PATH];
   take_scalars(job, scalars);
   list_blocks(job, scalars, blocks);
+  if (unloaded != NULL) {
+    const vsc_prestress_row *last = &unloaded->rows[unloaded->row_count - 1];
+    memcpy(row, (double[]){last->iteration, last->relaxation, last->largest, last->mean}, sizeof row);
+    list_unloaded(job, row, blocks + BLOCKS);
+  }
   vsc_job_path(job, "checkpoint.h5", path);
   const vsc_status shown = vsc_frame_writer_finish(job->writer, error);
-  const vsc_status status = vsc_checkpoint_write(path, job->problem->model->hash, BLOCKS, blocks,
+  const vsc_status status = vsc_checkpoint_write(path, vsc_job_hash(job), BLOCKS + (unloaded != NULL ? UNLOADED : 0), blocks,
                                                  shown == VSC_OK ? error : NULL);
   return shown == VSC_OK ? status : shown;
+}
+
+static vsc_status read_checkpoint(const vsc_job *job, size_t count, const vsc_block *blocks, vsc_error *error)
+{
+  char path[VSC_PATH];
+  vsc_job_path(job, "checkpoint.h5", path);
+  if (access(path, F_OK) != 0)
+    return vsc_fail(error, VSC_INPUT,
+                    "%s: is not there: a run leaves it when it ends or is stopped, and on its way with output.checkpoint; "
+                    "begin anew without --resume", path);
+  return vsc_checkpoint_read(path, vsc_job_hash(job), count, blocks, error);
+}
+
+vsc_status vsc_job_load_unloaded(vsc_job *job, vsc_error *error)
+{
+  vsc_problem *problem = job->problem;
+  double row[4];
+  vsc_block blocks[UNLOADED];
+  vsc_status status = vsc_unloaded_create(problem, error);
+  if (status != VSC_OK) return status;
+  list_unloaded(job, row, blocks);
+  status = read_checkpoint(job, UNLOADED, blocks, error);
+  if (status != VSC_OK) return status;
+  problem->unloaded->rows[0] = (vsc_prestress_row){(int)row[0], row[1], row[2], row[3]};
+  return vsc_unload_again(problem, error);
 }
 
 // The factor of implicit steps is to be made again of its matrix, which has changed.
@@ -162,15 +210,8 @@ vsc_status vsc_job_load(vsc_job *job, vsc_error *error)
 {
   double scalars[SCALARS];
   vsc_block blocks[BLOCKS];
-  char path[VSC_PATH];
   list_blocks(job, scalars, blocks);
-  vsc_job_path(job, "checkpoint.h5", path);
-  if (access(path, F_OK) != 0)
-    return vsc_fail(error, VSC_INPUT,
-                    "%s: is not there: a run leaves it when it ends or is stopped, and on its way with output.checkpoint; "
-                    "begin anew without --resume", path);
-  const vsc_status status =
-      vsc_checkpoint_read(path, job->problem->model->hash, BLOCKS, blocks, error);
+  const vsc_status status = read_checkpoint(job, BLOCKS, blocks, error);
   if (status == VSC_OK) put_scalars(job, scalars);
   if (status == VSC_OK) forget_factor(job);
   return status;

@@ -201,9 +201,10 @@ static vsc_status save(vsc_job *job, vsc_error *error)
   return status;
 }
 
-// The shape at rest, with a table of how it was found, or of how it was not.
+// The shape at rest, with a table of how it was found, or of how it was not; of a resumed run that of the checkpoint.
 static vsc_status unload(vsc_job *job, vsc_error *error)
 {
+  if (job->options->resume) return vsc_in_scene(job->problem->scene->file, vsc_job_load_unloaded(job, error), error);
   vsc_status status = make_directories(job, error);
   if (status != VSC_OK) return status;
   status = vsc_in_scene(job->problem->scene->file, vsc_unload(job->problem, error), error);
@@ -459,7 +460,8 @@ vsc_status vsc_run(vsc_problem *problem, const vsc_run_options *options, vsc_run
   job.start_cpu = vsc_cpu_seconds();
   *result = (vsc_run_result){0};
   vsc_run_name(problem->scene->file, job.name, sizeof job.name);
-  vsc_status status = start(&job, error);
+  vsc_status status = vsc_job_take_name(&job, error);
+  if (status == VSC_OK) status = start(&job, error);
   job.begun_seconds = vsc_wall_seconds() - job.start_wall - job.output_seconds;
   if (status == VSC_OK) {
     vsc_solve_heed(problem->model, job.state, options->interrupted);

@@ -52,8 +52,9 @@ typedef struct vsc_run_result {
 
 // Runs `problem` to its end. The directory then holds NAME.pvd and frames/, signals.csv,
 // summary.json, checkpoint.h5 and scene.yaml (the scene as understood), NAME being the scene file's
-// name; with prestress, whose shape at rest is found first (vsc_unload), also prestress.csv, a row for each
-// iteration, and reference.vtu, that shape. A failed run leaves the frames up to then, a frame and a checkpoint of the last good state,
+// name, or, of a run that is resumed with a scene file of another name, that of the series which it goes on with; with
+// prestress, whose shape at rest is found first (vsc_unload; a resumed run has it from its checkpoint), also
+// prestress.csv, a row for each iteration, and reference.vtu, that shape. A failed run leaves the frames up to then, a frame and a checkpoint of the last good state,
 // and the reason in summary.json; the same reason is in `error`. VSC_INPUT, and nothing is touched, when one of these
 // files is among those that the run is made of.
 vsc_status vsc_run(vsc_problem *problem, const vsc_run_options *options, vsc_run_result *result,

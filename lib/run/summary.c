@@ -110,7 +110,7 @@ static void write_body(const vsc_job *job, const vsc_run_result *result, const c
   if (failure) write_string(file, "reason", failure, ",");
   if (result->warning[0] != '\0') write_string(file, "warning", result->warning, ",");
   write_string(file, "kernel", vsc_kernel_set(), ",");
-  fprintf(file, "  \"model_hash\": \"%016llx\",\n", (unsigned long long)model->hash);
+  fprintf(file, "  \"model_hash\": \"%016llx\",\n", (unsigned long long)vsc_job_hash(job));
   fprintf(file, "  \"state_hash\": \"%016llx\",\n",
           (unsigned long long)vsc_state_hash(model, job->state));
   write_number(file, "threads", vsc_parallel_threads(), ",");
