@@ -5,11 +5,13 @@
 
 #include "base/status.h"
 
-// Checks the list of cells of a legacy file, ASCII or binary, in the format before VTK 9 (a line
-// "CELLS n size", then for each cell its number of points and the points): the n lists must fill
-// the `size` numbers exactly, because VTK takes them as they are and reads past their end. Likewise
-// the lists VERTICES, LINES, POLYGONS and TRIANGLE_STRIPS of polydata.
-// VSC_INPUT if they don't, or if CELL_TYPES come without a list; other files pass.
-vsc_status vsc_legacy_check_cells(const char *file, vsc_error *error);
+// Checks a legacy file, ASCII or binary, of a grid, an image or polydata, for what VTK takes as it is and then reads past
+// an end or allocates without bound:
+// - lists of cells in the format before VTK 9 (a line "CELLS n size", then for each cell its number of points and the
+//   points; of polydata VERTICES, LINES, POLYGONS and TRIANGLE_STRIPS): the n lists must fill the `size` numbers
+//   exactly, and name points that there are; CELL_TYPES and lists come behind what they belong to;
+// - the counts of points, cells and of each array: not more numbers than the bytes that follow have bits.
+// VSC_INPUT if any of this does not hold, or the file cannot be read; other files pass.
+vsc_status vsc_legacy_check(const char *file, vsc_error *error);
 
 #endif

@@ -8,6 +8,7 @@
 #include <exception>
 #include <mutex>
 #include <new>
+#include <stdexcept>
 #include <string>
 
 #include <vtkLogger.h>
@@ -94,16 +95,23 @@ private:
   vtkLogger::Verbosity verbosity;
 };
 
+inline vsc_status fail_size(const char *file, vsc_error *error)
+{
+  return vsc_fail(error, VSC_INPUT,
+                  "%s: announces more data than fits in memory: it is damaged, or too large for "
+                  "this machine",
+                  file);
+}
+
 // Runs `work` and turns exceptions into a status.
 template <typename Work> vsc_status guarded(const char *file, vsc_error *error, Work work)
 {
   try {
     return work();
   } catch (const std::bad_alloc &) {
-    return vsc_fail(error, VSC_INPUT,
-                    "%s: announces more data than fits in memory: it is damaged, or too large for "
-                    "this machine",
-                    file);
+    return fail_size(file, error);
+  } catch (const std::length_error &) {
+    return fail_size(file, error);
   } catch (const std::exception &problem) {
     return vsc_fail(error, VSC_SYSTEM, "%s: VTK failed: %s", file, problem.what());
   } catch (...) {

@@ -29,6 +29,7 @@
 
 extern "C" {
 #include "io/vtk_legacy.h"
+#include "io/vtk_xml.h"
 #include "mesh/mesh.h"
 }
 #include "io/vtk_quiet.hh"
@@ -79,8 +80,9 @@ inline vsc_status fail_read(const char *file, const silence &quiet, vsc_error *e
 
 // VTK doesn't notice when the numbers of a legacy file's last array end too soon: the missing ones
 // come as whatever was in memory. So the file is read once more with a number behind its end: VTK
-// must complain of just that number, or the array has swallowed some of it.
-constexpr char STRAY[] = "271828182845";
+// must complain of just that number as a keyword or an attribute, or an array has swallowed some of it.
+// Where VTK takes it for a count it is none.
+constexpr char STRAY[] = "0.271828182845";
 
 // Whether the last lines are those behind an array that describe it, up to an empty line.
 inline bool ends_in_metadata(const std::string &text)
@@ -113,7 +115,9 @@ template <typename Reader> bool breaks_off(const char *file, const silence &quie
   reader->SetInputArray(array);
   reader->ReadFromInputStringOn();
   reader->Update();
-  return quiet.said().find(STRAY) == std::string::npos;
+  const std::string said = quiet.said(), stray = STRAY;
+  return said.find("keyword: " + stray) == std::string::npos &&
+         said.find("attribute type: " + stray) == std::string::npos;
 }
 
 // Reads a .vtk file of the VTK type that `Reader` reads.
@@ -130,7 +134,7 @@ vsc_status read_legacy(const char *file, int type, const char *wanted, const sil
                     quiet.said().c_str());
   if (found != type)
     return fail_kind(file, vtkDataObjectTypes::GetClassNameFromTypeId(found) + 3, wanted, error);
-  const vsc_status status = vsc_legacy_check_cells(file, error);
+  const vsc_status status = vsc_legacy_check(file, error);
   if (status != VSC_OK) return status;
   vtkNew<Reader> reader;
   reader->SetFileName(file);
@@ -174,6 +178,8 @@ vsc_status read_xml(const char *file, const char *type, const char *wanted, cons
   if (std::strcmp(tester->GetFileDataType(), type) != 0)
     return fail_kind(file, tester->GetFileDataType(), wanted, error);
   if (!is_closed(file)) return fail_read(file, quiet, error);
+  const vsc_status status = vsc_xml_check(file, error);
+  if (status != VSC_OK) return status;
   vtkNew<Reader> reader;
   reader->SetFileName(file);
   reader->Update();
