@@ -8,6 +8,7 @@
 #include "mech/prony.h"
 #include "mech/step_limit.h"
 #include "mech/tangent.h"
+#include "run/events.h"
 #include "solve/explicit.h"
 
 // Seconds of one step, by doing some.
@@ -108,12 +109,14 @@ static vsc_status say_cost(const vsc_problem *problem, vsc_state *state, FILE *o
   const vsc_model *model = problem->model;
   const vsc_output_def *output = &problem->scene->output;
   const double dt = model->step > 0 ? model->step : state->limit.step;
-  const double steps = (model->end_time - problem->scene->prestress.time) / dt;
+  const double start = problem->scene->prestress.time;
+  const double look = vsc_events_look(model, state, output->signal_interval);
+  const double steps = vsc_events_steps(problem, look, start, dt);
   double seconds;
   const vsc_status status = measure_step(model, state, &seconds, error);
   if (status != VSC_OK) return status;
   seconds *= steps;
-  const double frames = 1 + steps * dt / output->frame_interval;
+  const double frames = fmin(vsc_events_frames(problem, start), steps + 1);
   const double number = output->double_precision ? 8 : 4;
   const double frame =
       0.6 * number * (9.0 * (double)model->node_count + 6.0 * (double)model->element_count) +
@@ -122,7 +125,7 @@ static vsc_status say_cost(const vsc_problem *problem, vsc_state *state, FILE *o
           "cost       %.4g ms = about %.0f steps: %.3g s of work on %d thread%s (%s); %.3g MB of "
           "memory; %.0f "
           "frames, about %.3g MB on disk\n",
-          steps * dt, steps, seconds, vsc_parallel_threads(),
+          model->end_time - start, steps, seconds, vsc_parallel_threads(),
           vsc_parallel_threads() > 1 ? "s" : "", vsc_kernel_set(), 1e-6 * memory_bytes(model),
           frames, 1e-6 * frames * frame);
   return VSC_OK;

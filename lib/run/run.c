@@ -10,17 +10,15 @@
 #include "base/mem.h"
 #include "base/parallel.h"
 #include "io/checkpoint.h"
+#include "run/events.h"
 #include "run/job.h"
 #include "run/prestress.h"
 #include "solve/solve.h"
 
-#define USUAL_LOOK 1.0    // ms between two looks of the energy ledger,
-#define STEPS_OF_LOOK 32  // or as many steps, whichever is longer
 #define CLOSER 16         // looks in place of one that did not balance
 #define TURNS 4           // how often a way is gone again
 #define CALM 16           // good looks after which shorter steps become longer again
 #define LEAST_CAUTION 0x1p-6
-#define LOOKS_PER_PERIOD 16
 #define SAME_TIME 1e-12   // part of a time by which multiples of intervals differ by rounding
 
 void vsc_run_name(const char *file, char *name, size_t size)
@@ -237,22 +235,6 @@ static vsc_status start(vsc_job *job, vsc_error *error)
   return status == VSC_OK ? vsc_checkpoint_ready(error) : status;
 }
 
-// The next multiple of `interval` after `time`, or `end` if that comes first or the interval is 0.
-static double next_event(double time, double interval, double end)
-{
-  if (!(interval > 0)) return end;
-  const double next = interval * (floor(time / interval * (1 + SAME_TIME)) + 1);
-  return next < end * (1 - SAME_TIME) ? next : end;
-}
-
-// Whether a multiple of `interval`, or the end, lies in (before, now]: steps of the user's length go
-// past multiples.
-static bool is_event(double before, double now, double interval, double end)
-{
-  if (now >= end * (1 - SAME_TIME)) return true;
-  return interval > 0 && next_event(before, interval, end) <= now * (1 + SAME_TIME);
-}
-
 static vsc_status go_to(vsc_job *job, double time, vsc_error *error)
 {
   vsc_status status = vsc_solve_to(job->problem->model, job->state, time, error);
@@ -315,7 +297,7 @@ static void watch_cycle(vsc_job *job, double before)
   const vsc_model *model = job->problem->model;
   if (job->cycle.kept == NULL) return;
   vsc_cycle_look(model, job->state, &job->cycle);
-  if (is_event(before, job->state->time, model->cycle, HUGE_VAL))
+  if (vsc_events_between(before, job->state->time, model->cycle, HUGE_VAL))
     vsc_cycle_end(model, job->state, &job->cycle);
   vsc_job_keep_good(job);
 }
@@ -324,33 +306,6 @@ static void watch_cycle(vsc_job *job, double before)
 static bool repeats(const vsc_job *job)
 {
   return job->cycle.kept != NULL && job->cycle.difference <= job->problem->model->cycle_tolerance;
-}
-
-// A period must not slip through between two looks.
-static void resolve(const vsc_curve *curve, double *look)
-{
-  if (curve->period > 0) *look = fmin(*look, curve->period / LOOKS_PER_PERIOD);
-}
-
-// The longest way between two looks of the ledger, ms.
-static double longest_look(const vsc_model *model)
-{
-  double look = HUGE_VAL;
-  for (size_t m = 0; m < model->material_count; m++)
-    if (model->materials[m].active != VSC_ACTIVE_NONE) resolve(&model->materials[m].curve, &look);
-  for (size_t p = 0; p < model->pressure_count; p++) resolve(&model->pressures[p].curve, &look);
-  for (size_t s = 0; s < model->moved_count; s++) resolve(&model->moved[s].curve, &look);
-  return look;
-}
-
-// The way between two looks, ms: a whole part of that between two rows of signals, not longer than the longest and about
-// the usual one; looks cost as much as some steps.
-static double look_of(const vsc_model *model, const vsc_state *state, double rows)
-{
-  if (model->solve.kind != VSC_SOLVE_EXPLICIT) return rows;
-  const double step = model->step > 0 ? model->step : state->limit.first;
-  const double usual = fmax(USUAL_LOOK, STEPS_OF_LOOK * step);
-  return rows / fmax(fmax(round(rows / usual), ceil(rows / longest_look(model))), 1);
 }
 
 static bool is_interrupted(const vsc_job *job)
@@ -368,14 +323,10 @@ static vsc_status advance(vsc_job *job, double stop, vsc_error *error)
   vsc_status status = VSC_OK;
   vsc_error reason;  // of ways that are gone again, too
   // the ledger wants its looks, however rare the rows are
-  const double look = look_of(job->problem->model, state, output->signal_interval);
+  const double look = vsc_events_look(job->problem->model, state, output->signal_interval);
   while (state->time < stop * (1 - SAME_TIME) && status == VSC_OK && !repeats(job) && !is_interrupted(job)) {
     const double before = state->time;
-    double next = next_event(before, look, end);
-    next = fmin(next, next_event(state->time, output->frame_interval, end));
-    next = fmin(next, next_event(state->time, output->checkpoint_interval, end));
-    next = fmin(next, next_event(state->time, job->problem->model->cycle, end));
-    status = go_to_look(job, next, &reason);
+    status = go_to_look(job, vsc_events_next(job->problem, look, before), &reason);
     if (status != VSC_OK && is_interrupted(job)) {  // the method has given up on its way
       vsc_job_go_back(job);
       return VSC_OK;
@@ -383,12 +334,12 @@ static vsc_status advance(vsc_job *job, double stop, vsc_error *error)
     if (status != VSC_OK && error != NULL) *error = reason;
     if (status == VSC_OK) watch_cycle(job, before);
     const bool last = repeats(job);
-    if (status == VSC_OK && (last || is_event(before, state->time, output->signal_interval, end)))
+    if (status == VSC_OK && (last || vsc_events_between(before, state->time, output->signal_interval, end)))
       status = write_row(job, error);
-    if (status == VSC_OK && (last || is_event(before, state->time, output->frame_interval, end)))
+    if (status == VSC_OK && (last || vsc_events_between(before, state->time, output->frame_interval, end)))
       status = write_frame(job, error);
     if (status == VSC_OK && output->checkpoint_interval > 0 &&
-        is_event(before, state->time, output->checkpoint_interval, end))
+        vsc_events_between(before, state->time, output->checkpoint_interval, end))
       status = save(job, error);
     if (status == VSC_OK && job->options->progress != NULL)
       job->options->progress(job->options->progress_context, state->time, end,
