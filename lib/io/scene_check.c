@@ -7,6 +7,8 @@
 #include "base/vec3.h"
 #include "io/scene_reading.h"
 
+#define SHORTEST_INTERVAL 1e-9  // between rows, frames, checkpoints: of time.end
+
 vsc_status vsc_selector_finish(vsc_reading *reading, const vsc_slot *slots, void *target)
 {
   const vsc_selector *selector = target;
@@ -149,12 +151,16 @@ static vsc_status check_vessels(vsc_reading *reading, const vsc_definition *d)
   return VSC_OK;
 }
 
-static vsc_status check_interval(vsc_reading *reading, const char *key, double value, bool zero)
+// What comes more often than a run could ever write it is a slip of the unit.
+static vsc_status check_interval(vsc_reading *reading, const char *key, double value, bool zero, double end)
 {
   vsc_enter(reading, key);
   if (value < 0 || (value == 0 && !zero))
     return vsc_reading_fail(reading, "%g ms; expected %s", value,
                             zero ? "a time, or 0 ms for only at the end" : "a time above zero");
+  if (value > 0 && value < SHORTEST_INTERVAL * end)
+    return vsc_reading_fail(reading, "%g ms; expected %g ms at least, a thousand-millionth of time.end", value,
+                            SHORTEST_INTERVAL * end);
   vsc_leave(reading, 0);
   return VSC_OK;
 }
@@ -204,11 +210,12 @@ static vsc_status check_arrays(vsc_reading *reading, const vsc_scene *scene)
 static vsc_status check_output(vsc_reading *reading, const vsc_scene *scene)
 {
   const vsc_output_def *output = &scene->output;
-  vsc_status status = check_interval(reading, "output.frames", output->frame_interval, false);
+  const double end = scene->definition.end_time;
+  vsc_status status = check_interval(reading, "output.frames", output->frame_interval, false, end);
   if (status == VSC_OK)
-    status = check_interval(reading, "output.signals", output->signal_interval, false);
+    status = check_interval(reading, "output.signals", output->signal_interval, false, end);
   if (status == VSC_OK)
-    status = check_interval(reading, "output.checkpoint", output->checkpoint_interval, true);
+    status = check_interval(reading, "output.checkpoint", output->checkpoint_interval, true, end);
   if (status == VSC_OK) status = check_arrays(reading, scene);
   for (size_t i = 0; i < output->cavity_count && status == VSC_OK; i++) {
     vsc_enter(reading, "output.cavities");
