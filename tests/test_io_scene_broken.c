@@ -57,8 +57,10 @@ static const struct {
     {"cavities:", "cavity:", "62:", "output.cavity:", "known here"},
     {"seed: 7", "<<: {seed: 7}", "19:", "fibers.<<:", "known here"},
     // keys given twice or not at all
-    {"  seed: 7\n", "  fill: true\n", "13:", "fibers.fill:", "given twice"},
-    {"step: 0.01 ms", "end: 1 s", "56:", "time.end:", "given twice"},
+    {"  seed: 7\n", "  fill: true\n", "13:", "fibers.fill:", "given twice, again on line 19;"},
+    {"step: 0.01 ms", "end: 1 s", "56:", "time.end:", "given twice, again on line 56;"},
+    {"volume: element\n", "volume: element\nvolume: nodal\n", "49:", "volume:", "given twice, again on line 50;"},
+    {"volume: element\n", "mesh: {}\n", "1:", "mesh:", "given twice, again on line 49;"},
     {"    volume_modulus: 2 MPa\n", "", "37:", "materials[1].volume_modulus:", "missing"},
     {"end: 1.6 s, ", "", "56:", "time.end:", "\"end: 1.6 s\""},
     {"held: [x, z]", "", "51:", "supports[0].held:", "missing"},
@@ -81,6 +83,7 @@ static const struct {
     {"normal: [0, 0, 1]", "normal: []", "9:", "node_sets[1].plane.normal:", "[0, 0, 1]"},
     {"range: [1.5, 2.5]", "range: [1.5]", "4:", "surfaces[1].range:", "expected 2"},
     {"  kind: table\n", "  kind:\n", "46:", "materials[1].active.curve.kind:", "ramp"},
+    {"end: 1.6 s", "end: \"1.6 s\\0 and more\"", "56:", "a NUL character", "in \"1.6 s\"; leave it out"},
     // units
     {"450 mmHg", "450", "31:", "materials[0].active.tension:", "no unit"},
     {"10 kPa, s: 5 kPa, n: 4", "10 kpa, s: 5 kPa, n: 4", "24:", "materials[0].axial.f:",

@@ -79,6 +79,9 @@ static vsc_status check_event(const yaml_event_t *event, const char *file, int *
   const bool closes =
       event->type == YAML_SEQUENCE_END_EVENT || event->type == YAML_MAPPING_END_EVENT;
   *depth += opens - closes;
+  if (event->type == YAML_SCALAR_EVENT && memchr(event->data.scalar.value, '\0', event->data.scalar.length) != NULL)
+    return vsc_fail(error, VSC_INPUT, "%s:%zu: a NUL character (\\0) in \"%.60s\"; leave it out", file, line,
+                    (const char *)event->data.scalar.value);
   if (*depth <= DEEPEST) return VSC_OK;
   return vsc_fail(error, VSC_INPUT,
                   "%s:%zu: lists and groups inside one another, %d deep; expected a scene, see "
@@ -86,7 +89,7 @@ static vsc_status check_event(const yaml_event_t *event, const char *file, int *
                   file, line, *depth);
 }
 
-// Grammar, number of documents, depth: before the document is loaded, for libyaml takes hours to
+// Grammar, number of documents, depth, values that C's strings cannot hold: before the document is loaded, for libyaml takes hours to
 // load what is nested a million deep.
 static vsc_status check_grammar(const char *file, const char *text, size_t size, vsc_error *error)
 {
@@ -135,16 +138,17 @@ vsc_status vsc_locator_open(const char *file, const char *text, size_t size, vsc
   return status;
 }
 
-// The value of `key` (length bytes) in a mapping, NULL if it is not there; *line is its key's line.
+// The value of `key` (length bytes) in a mapping, where it stands after `skip` others; NULL if it is not there; *line is
+// its key's line.
 static yaml_node_t *find_value(yaml_document_t *document, const yaml_node_t *mapping,
-                               const char *key, size_t length, size_t *line)
+                               const char *key, size_t length, int skip, size_t *line)
 {
   if (mapping->type != YAML_MAPPING_NODE) return NULL;
   yaml_node_pair_t *const top = mapping->data.mapping.pairs.top;
   for (yaml_node_pair_t *pair = mapping->data.mapping.pairs.start; pair < top; pair++) {
     const yaml_node_t *name = yaml_document_get_node(document, pair->key);
     if (name->data.scalar.length != length) continue;
-    if (memcmp(name->data.scalar.value, key, length) != 0) continue;
+    if (memcmp(name->data.scalar.value, key, length) != 0 || skip-- > 0) continue;
     *line = name->start_mark.line + 1;
     return yaml_document_get_node(document, pair->value);
   }
@@ -162,7 +166,8 @@ static yaml_node_t *find_item(yaml_document_t *document, const yaml_node_t *sequ
   return node;
 }
 
-size_t vsc_locator_line(const vsc_locator *locator, const char *key)
+// The line of a key, or, of its last part, where that stands after `skip` others.
+static size_t find_line(const vsc_locator *locator, const char *key, int skip)
 {
   yaml_document_t *document = (yaml_document_t *)&locator->document;
   const yaml_node_t *node = yaml_document_get_root_node(document);
@@ -175,11 +180,21 @@ size_t vsc_locator_line(const vsc_locator *locator, const char *key)
     } else {
       if (*key == '.') key++;
       const size_t length = strcspn(key, ".[");
-      node = find_value(document, node, key, length, &line);
+      node = find_value(document, node, key, length, key[length] == '\0' ? skip : 0, &line);
       key += length;
     }
   }
   return line;
+}
+
+size_t vsc_locator_line(const vsc_locator *locator, const char *key)
+{
+  return find_line(locator, key, 0);
+}
+
+size_t vsc_locator_line_again(const vsc_locator *locator, const char *key)
+{
+  return find_line(locator, key, 1);
 }
 
 void vsc_locator_close(vsc_locator *locator)

@@ -176,7 +176,8 @@ static vsc_status explain(vsc_reading *reading, const complaint *heard, const vs
     return vsc_reading_fail(reading, "unknown key; %s", hint);
   }
   if (strncmp(heard->message, seen, strlen(seen)) == 0)
-    return vsc_reading_fail(reading, "given twice, again on line %zu; keep one", heard->line);
+    return vsc_reading_fail(reading, "given twice, again on line %zu; keep one",
+                            reading->current != NULL ? heard->line : vsc_locator_line_again(reading->locator, reading->key));
   if (strncmp(heard->message, "Expecting ", 10) == 0)
     return fail_shape(reading, row, item, strstr(heard->message, "got event: "));
   if (empty)
