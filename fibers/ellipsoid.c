@@ -7,6 +7,8 @@
 #include "base/vec3.h"
 #include "fibers/helix.h"
 
+#define OFF 0.1  // of the wall: what lies as far from both ellipsoids is off them
+
 enum { HALVINGS = 60 };  // of an interval of 4: to rounding
 
 static double radius(const vsc_ellipsoid_def *wall, double t)
@@ -75,6 +77,28 @@ int vsc_ellipsoid_frame(const vsc_fiber_def *definition, const double point[3], 
 {
   const double t = vsc_ellipsoid_depth(&definition->ellipsoid, definition->long_axis, point);
   return vsc_ellipsoid_frame_at(definition, point, fmin(fmax(t, 0), 1), frame);
+}
+
+void vsc_ellipsoid_judge(const vsc_fiber_def *definition, const vsc_mesh *mesh, const vsc_surface *surface, size_t *faces,
+                         size_t *off)
+{
+  const vsc_ellipsoid_def *wall = &definition->ellipsoid;
+  for (size_t k = 0; k < surface->count; k++) {
+    double edge[2][3], normal[3], outwards[3], t = 0;
+    const double *corner[3];
+    bool far = true;
+    for (int i = 0; i < 3; i++) {
+      corner[i] = &mesh->nodes[3 * (size_t)surface->triangles[3 * k + (size_t)i]];
+      t = vsc_ellipsoid_depth(wall, definition->long_axis, corner[i]);
+      far = far && fmin(fabs(t), fabs(1 - t)) > OFF;
+    }
+    for (int i = 0; i < 2; i++) vsc_subtract(corner[i], corner[2], edge[i]);
+    vsc_cross(edge[0], edge[1], normal);
+    vsc_ellipsoid_normal(wall, definition->long_axis, corner[2], t, outwards);
+    if (!(fabs(vsc_dot(normal, outwards)) > 0.5 * vsc_norm(normal) * vsc_norm(outwards))) continue;
+    ++*faces;
+    *off += far;
+  }
 }
 
 vsc_status vsc_ellipsoid_check(const vsc_fiber_def *definition, vsc_error *error)

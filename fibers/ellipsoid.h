@@ -22,6 +22,7 @@
 #define VSC_FIBERS_ELLIPSOID_H
 
 #include "base/status.h"
+#include "mesh/select.h"
 #include "model/fiber_def.h"
 
 // Depth t of a point (mm), limited to -1 and 3, by bisection; `long_axis` points from apex to base (any
@@ -43,6 +44,11 @@ int vsc_ellipsoid_frame_at(const vsc_fiber_def *definition, const double point[3
 // The same with the point's own depth. The angle of points beside
 // the wall is that of its nearer side. Returns 0, leaving the frame alone, in the centre; else 1.
 int vsc_ellipsoid_frame(const vsc_fiber_def *definition, const double point[3], double frame[9]);
+
+// Counts the triangles of `surface` that face along the normal of the ellipsoids (within 60 degrees, so that the base's do
+// not), and those of them whose three corners lie off both ellipsoids by more than a tenth of the wall; adds to both.
+void vsc_ellipsoid_judge(const vsc_fiber_def *definition, const vsc_mesh *mesh, const vsc_surface *surface, size_t *faces,
+                         size_t *off);
 
 // VSC_INPUT when radii and lengths are not above 0 and rising from inside to outside, the long axis is
 // zero or anything is not finite.

@@ -307,8 +307,21 @@ static vsc_status from_depth(const vsc_mesh *mesh, const vsc_fiber_def *definiti
                       "the wall",
                       epi->name, endo->name);
   if (status == VSC_OK) status = count_shared(mesh, endo, &outside, &report->meeting, error);
+  for (int k = 0; k < 2 && status == VSC_OK && definition->source == VSC_FIBER_ELLIPSOID; k++)
+    vsc_ellipsoid_judge(definition, mesh, k == 0 ? endo : &outside, &report->wall_faces, &report->off_faces);
   if (status == VSC_OK) status = vsc_fibers_helix(mesh, definition, endo, &outside, axes, error);
   vsc_surface_free(&outside);
+  return status;
+}
+
+static vsc_status from_ellipsoid(const vsc_mesh *mesh, const vsc_fiber_def *definition, vsc_axes *axes,
+                                 vsc_fiber_report *report, vsc_error *error)
+{
+  vsc_surface boundary = {0};
+  vsc_status status = vsc_fibers_synthetic(mesh, definition, axes, error);
+  if (status == VSC_OK) status = vsc_boundary(mesh, &boundary, error);
+  if (status == VSC_OK) vsc_ellipsoid_judge(definition, mesh, &boundary, &report->wall_faces, &report->off_faces);
+  vsc_surface_free(&boundary);
   return status;
 }
 
@@ -322,6 +335,7 @@ static vsc_status from_source(const vsc_mesh *mesh, const vsc_fiber_def *definit
     case VSC_FIBER_NONE: return VSC_OK;
     case VSC_FIBER_MAP: return from_map(mesh, &definition->map, axes, report, error);
     case VSC_FIBER_ARRAYS: return from_arrays(mesh, definition, axes, report, error);
+    case VSC_FIBER_ELLIPSOID: return from_ellipsoid(mesh, definition, axes, report, error);
     default: return vsc_fibers_synthetic(mesh, definition, axes, error);
   }
 }

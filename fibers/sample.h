@@ -29,6 +29,8 @@ typedef struct vsc_fiber_report {
   size_t opposed;         // ARRAYS on nodes: elements at whose nodes vectors differ by 90 to 170 degrees, so that as
                           // axes they turn the other way round, by more than 10
   size_t meeting;         // HELIX, ELLIPSOID with surfaces: nodes on both of them, where the depth jumps
+  size_t wall_faces;      // ELLIPSOID: triangles of the wall's surfaces (of the boundary where none are named), base apart,
+  size_t off_faces;       // and those that lie off both ellipsoids by more than a tenth of the wall
   bool constant;  // ARRAYS: all fibres are the same axis (within 0.06 degrees): perhaps a dummy
   double worst_sheet_angle;  // ARRAYS: largest deviation of sheet and fibre from a right angle,
                              // degrees

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What `viscera check` says about the method: what limits the step, how equilibria are solved; and about selections.
+#include <math.h>
+
 #include "block_scene.h"
 #include "trap.h"
 
@@ -73,12 +75,73 @@ static void test_volumes_kept_by_multipliers(void **state)
   assert_holds(line_of("solve"), "signal, volumes kept to 0.0001 by multipliers; Newton");
 }
 
+static void counts_as_run(const char *options)
+{
+  char command[400], expected[60];
+  snprintf(command, sizeof command, "$V check block.yaml -t 1 --set 'time.end=3 ms' %s", options);
+  must(command);
+  const char *line = line_of("cost"), *steps = strstr(line, "= about "), *frames = strstr(line, " MB of memory; ");
+  assert_true(steps != NULL && frames != NULL);
+  const double foretold = strtod(steps + strlen("= about "), NULL);
+  snprintf(expected, sizeof expected, "%.0f", strtod(frames + strlen(" MB of memory; "), NULL));
+  snprintf(command, sizeof command, "$V run block.yaml -t 1 -o counted --set 'time.end=3 ms' %s", options);
+  must(command);
+  assert_string_equal(summary("counted", "frames"), expected);
+  const double taken = strtod(summary("counted", "steps"), NULL);
+  // the step is followed as the tissue stiffens
+  if (!(fabs(foretold - taken) <= 0.15 * taken)) fail_msg("%s: %g steps foretold, %g taken", options, foretold, taken);
+}
+
+// A step ends where a row, a frame or a checkpoint is due.
+static void test_steps_and_frames_foretold(void **state)
+{
+  (void)state;
+  counts_as_run("");
+  counts_as_run("--set 'output.signals=0.01 ms'");
+  counts_as_run("--set 'output.frames=0.03 ms' --set 'output.signals=0.5 ms'");
+  counts_as_run("--set 'output.frames=10 ms'");
+  counts_as_run("--set 'output.frames=0.7 ms'");
+  counts_as_run("--set 'output.frames=10 ms' --set 'output.checkpoint=0.02 ms'");
+  counts_as_run("--set 'time.step=0.02 ms' --set 'output.signals=0.01 ms' --set 'output.frames=10 ms'");
+}
+
+// Ellipsoids that are not those of the wall.
+static void test_ellipsoids_beside_the_wall(void **state)
+{
+  (void)state;
+  static const char warning[] = " of the wall's surface lies off both ellipsoids by more than a tenth of the wall";
+  must("$V generate lv --endo-radius 26 --endo-length 66 --epi-radius 35.5 --epi-length 73 --base 10 --around 8 "
+       "--along 4 --layers 4 -o wall.vtu");
+  save_text("wall.yaml",
+            "mesh: {file: wall.vtu, unit: mm}\n"
+            "surfaces: [{name: inside, node_array: endo, value: 1}, {name: outside, node_array: epi, value: 1}]\n"
+            "node_sets: [{name: base, node_array: base, value: 1}]\nfibers:\n  source: ellipsoid\n"
+            "  ellipsoid: {endo_radius: 26 mm, endo_length: 66 mm, epi_radius: 35.5 mm, epi_length: 73 mm}\n"
+            "materials: [{name: m, axial: {f: 10 kPa, s: 10 kPa, n: 10 kPa}, angular: {fs: 5 kPa, sn: 5 kPa, nf: 5 kPa}, volume_modulus: 100 kPa}]\n"
+            "supports: [{set: base, held: [x, y, z]}]\ntime: {end: 1 ms}\n");
+  const char *const surfaces[] = {"", "--set fibers.ellipsoid.endo=inside --set fibers.ellipsoid.epi=outside"};
+  const char *const wrong[] = {"endo_length=5 mm", "endo_radius=10 mm", "centre=[0 mm, 0 mm, 30 mm]"};
+  char command[400];
+  for (int k = 0; k < 2; k++) {
+    snprintf(command, sizeof command, "$V check wall.yaml -t 1 %s", surfaces[k]);
+    must(command);
+    assert_null(strstr(said, warning));
+    for (int i = 0; i < 3; i++) {
+      snprintf(command, sizeof command, "$V check wall.yaml -t 1 %s --set 'fibers.ellipsoid.%s'", surfaces[k], wrong[i]);
+      must(command);
+      assert_holds(said, warning);
+    }
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_damping_that_limits_the_step),
       cmocka_unit_test(test_arrays_that_no_selection_finds),
       cmocka_unit_test(test_volumes_kept_by_multipliers),
+      cmocka_unit_test(test_steps_and_frames_foretold),
+      cmocka_unit_test(test_ellipsoids_beside_the_wall),
   };
   return cmocka_run_group_tests(tests, block_open, program_close);
 }

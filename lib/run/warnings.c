@@ -180,6 +180,9 @@ static void warn_fibers(writer *w, const vsc_problem *problem)
          "fibers: endo and epi meet at %zu nodes, where the depth jumps from 0 to 1 and fibres turn at once: where the "
          "base lies between them, let epi name the outside alone",
          f->meeting);
+  if (f->off_faces > f->wall_faces / 4)
+    warn(w, "fibers: %.0f %% of the wall's surface lies off both ellipsoids by more than a tenth of the wall: are their centre, "
+         "axis, radii and lengths those of the mesh?", 100.0 * (double)f->off_faces / (double)f->wall_faces);
   if (f->constant)
     warn(w, "fibers: the array holds one and the same direction everywhere: perhaps a dummy");
   if (!def->sense_kept && f->opposed > f->elements / 50)
