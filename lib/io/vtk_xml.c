@@ -28,7 +28,8 @@ typedef struct walk {
   bool raw;                     // not in base64
   bool compressed, big, wide;   // as VTKFile says: compressor, byte order, headers of 64 bits
   double most;                  // numbers that the file can hold
-  double points, cells, tuples; // of the piece; of arrays in the group that is open
+  double points, cells;         // of the piece
+  double tuples;                // of arrays in the group that is open
   bool is_image, coding;        // coding: in an inline compressed array
   char code[CODE];
   size_t code_length;
@@ -187,6 +188,14 @@ static void check_appended(walk *w, const char *offset)
   else check_header(w, bytes, decode(begin, length, bytes));
 }
 
+// The text of an inline array has ended.
+static void end_code(walk *w)
+{
+  unsigned char bytes[CODE];
+  if (w->coding && w->status == VSC_OK) check_header(w, bytes, decode(w->code, w->code_length, bytes));
+  w->coding = false;
+}
+
 static void open_array(walk *w, const char *name, const char **attributes)
 {
   const char *format = find(attributes, "format");
@@ -226,6 +235,7 @@ static void open_file(walk *w, const char **attributes)
 static void XMLCALL open_element(void *context, const char *name, const char **attributes)
 {
   walk *w = context;
+  end_code(w);
   if (w->status != VSC_OK) return;
   if (strcmp(name, "VTKFile") == 0) open_file(w, attributes);
   if (strcmp(name, "ImageData") == 0) w->is_image = read_box(find(attributes, "WholeExtent"), &w->whole);
@@ -242,10 +252,7 @@ static void XMLCALL close_element(void *context, const char *name)
   const char *const groups[] = {"PointData", "Points", "CellData"};
   for (size_t i = 0; i < 3; i++)
     if (strcmp(name, groups[i]) == 0) w->tuples = 1;
-  if (w->status != VSC_OK || !w->coding) return;
-  unsigned char bytes[CODE];
-  w->coding = false;
-  check_header(w, bytes, decode(w->code, w->code_length, bytes));
+  end_code(w);
 }
 
 static void XMLCALL read_text(void *context, const char *text, int length)
