@@ -10,7 +10,7 @@ set(top_level lib tools data fibers tests CMakeLists.txt CMakePresets.json LICEN
 set(longest 500)
 # <header that begins so>=<files that may include it>
 set(wrapped "vtk=^lib/io/vtk[^/]*$" "hdf5=^lib/io/hdf5_module" "suitesparse=^lib/solve/cholmod" "cyaml=^lib/io/"
-    "udunits=^lib/io/" "expat=^lib/io/pvd" "plplot=^tools/plot/" "cairo=^tools/plot/")
+    "udunits=^lib/io/" "expat=^lib/io/(pvd|vtk_xml)" "plplot=^tools/plot/" "cairo=^tools/plot/")
 
 set(faults "")
 macro(fault text)

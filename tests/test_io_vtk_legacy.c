@@ -18,6 +18,7 @@ const char *__lsan_default_suppressions(void)
 #define POINTS "POINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\n"
 #define CELLS "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n"
 #define POLYDATA "# vtk DataFile Version 4.2\nvessel\nASCII\nDATASET POLYDATA\n"
+#define NEW_POLYDATA "# vtk DataFile Version 5.1\nvessel\nASCII\nDATASET POLYDATA\n"
 
 static void assert_refused(vsc_status status, const vsc_error *error, const char *path, const char *words)
 {
@@ -60,14 +61,29 @@ static void points_that_are_not_there(void **state)
   assert_no_mesh(GRID POINTS "CELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n10\n", "CELLS names point 4");
 }
 
+// VTK takes offsets for the older format where it understands the version so.
+static void offsets_of_another_version(void **state)
+{
+  (void)state;
+  static const char form[] = "# vtk DataFile Version %s\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n" POINTS
+                             "CELLS 2 4\nOFFSETS vtktypeint64\n0 4\nCONNECTIVITY vtktypeint64\n0 1 2 3\nCELL_TYPES 1\n10\n";
+  const char *const versions[] = {"5.1", "nan", "4.2", "-5.1"};
+  for (int k = 0; k < 4; k++) {
+    char text[1000];
+    snprintf(text, sizeof text, form, versions[k]);
+    if (k == 0) vsc_mesh_free(read_good(text));
+    else assert_no_mesh(text, "CELLS come as OFFSETS, which the version in its first line does not have");
+  }
+}
+
 static void counts_beyond_the_file(void **state)
 {
   (void)state;
   assert_no_mesh(GRID "POINTS 300000000 float\n0 0 0 1 0 0\n" CELLS, "POINTS announces 300000000 times 3 numbers");
   assert_no_mesh(GRID POINTS "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 2000000000\n10\n", "CELL_TYPES announces 2000000000 ");
-  assert_no_lines(POLYDATA "POINTS 2 float\n0 0 0 1 1 1\nLINES 900000000 2\nOFFSETS vtktypeint64\n0 2\n"
+  assert_no_lines(NEW_POLYDATA "POINTS 2 float\n0 0 0 1 1 1\nLINES 900000000 2\nOFFSETS vtktypeint64\n0 2\n"
                            "CONNECTIVITY vtktypeint64\n0 1\n", "LINES announces 900000000 ");
-  assert_no_lines(POLYDATA "POINTS 2 float\n0 0 0 1 1 1\nLINES 2 900000000\nOFFSETS vtktypeint64\n0 2\n"
+  assert_no_lines(NEW_POLYDATA "POINTS 2 float\n0 0 0 1 1 1\nLINES 2 900000000\nOFFSETS vtktypeint64\n0 2\n"
                            "CONNECTIVITY vtktypeint64\n0 1\n", "LINES announces 900000000 ");
 }
 
@@ -140,6 +156,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(points_that_are_not_there),
+    cmocka_unit_test(offsets_of_another_version),
     cmocka_unit_test(counts_beyond_the_file),
     cmocka_unit_test(arrays_beyond_the_file),
     cmocka_unit_test(arrays_of_such_names),

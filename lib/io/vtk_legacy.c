@@ -11,6 +11,7 @@
 #include "io/load.h"
 
 #define MOST INT64_MAX
+#define FIRST_WITH_OFFSETS 5  // version of the format
 
 // Walks over the numbers of the list.
 typedef struct reading {
@@ -106,6 +107,7 @@ static const char *list_name(const char *word, bool polydata)
 typedef struct walk {
   const char *file, *end;
   bool binary, polydata;
+  long long version; // of the format, its first number
   bool listed;       // lists of cells cannot follow
   int64_t points;    // as POINTS says; below zero: not yet
   long long places;  // as POINT_DATA or CELL_DATA says
@@ -134,6 +136,9 @@ static vsc_status check_list(const walk *w, const char *name, const char **word,
   const char *list = next_word(numbers, w->end);
   *word = list;
   if (strncasecmp(list, "offsets", 7) == 0) {
+    if (w->version < FIRST_WITH_OFFSETS)
+      return vsc_fail(error, VSC_INPUT, "%s: %s come as OFFSETS, which the version in its first line does not have: write the "
+                                        "file again", w->file, name);
     const vsc_status status = check_room(w, list, name, count, 1, error);
     return status == VSC_OK ? check_room(w, list, name, size, 1, error) : status;
   }
@@ -248,6 +253,9 @@ vsc_status vsc_legacy_check(const char *file, vsc_error *error)
   vsc_status status = vsc_load(file, &text, &size, error);
   if (status != VSC_OK) return status;
   walk w = {.file = file, .end = text + size, .points = -1};
+  static const char head[] = "# vtk DataFile Version";
+  const char *version = text + sizeof head - 1;
+  if (size < sizeof head || !next_count(&version, &w.version)) w.version = 0;
   const char *word = next_line(next_line(text, w.end), w.end);
   w.binary = strncasecmp(word, "binary", 6) == 0;
   while (word < w.end && status == VSC_OK) {
