@@ -24,7 +24,7 @@ vsc_status vsc_vtk_read_mesh(const char *file, double unit, vsc_mesh **mesh, vsc
 // Reads an image (.vti, or legacy .vtk structured points), origin, spacing and direction honoured,
 // lengths multiplied by `unit`. A file with arrays on its cells alone comes as the image of the cells' centres; of one
 // with both kinds those on cells come as cell_data (vsc_image_take_cells). Errors as above; an image without numeric
-// arrays is one. The caller owns *image.
+// arrays is one, and one whose pieces do not fill it. The caller owns *image.
 vsc_status vsc_vtk_read_image(const char *file, double unit, vsc_image **image, vsc_error *error);
 
 // What an array to write lies on.
