@@ -67,8 +67,8 @@ static void offsets_of_another_version(void **state)
   (void)state;
   static const char form[] = "# vtk DataFile Version %s\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n" POINTS
                              "CELLS 2 4\nOFFSETS vtktypeint64\n0 4\nCONNECTIVITY vtktypeint64\n0 1 2 3\nCELL_TYPES 1\n10\n";
-  const char *const versions[] = {"5.1", "nan", "4.2", "-5.1"};
-  for (int k = 0; k < 4; k++) {
+  const char *const versions[] = {"5.1", "nan", "4.2", "-5.1", "7", "5.x", "3000000000.1"};
+  for (int k = 0; k < 7; k++) {
     char text[1000];
     snprintf(text, sizeof text, form, versions[k]);
     if (k == 0) vsc_mesh_free(read_good(text));

@@ -246,16 +246,24 @@ static vsc_status check_word(walk *w, const char **word, vsc_error *error)
   return status == VSC_OK && !w->listed ? check_geometry(w, word, error) : status;
 }
 
+// The first of the two numbers of the version, as VTK understands it; else 0, as it takes that for an old one.
+static long long read_version(const char *text, size_t size)
+{
+  static const char head[] = "# vtk DataFile Version";
+  long long major, minor;
+  const char *at = text + sizeof head - 1;
+  if (size < sizeof head || !next_count(&at, &major) || *at != '.') return 0;
+  at++;
+  return isdigit((unsigned char)*at) && next_count(&at, &minor) && major < 1000 ? major : 0;
+}
+
 vsc_status vsc_legacy_check(const char *file, vsc_error *error)
 {
   char *text;
   size_t size;
   vsc_status status = vsc_load(file, &text, &size, error);
   if (status != VSC_OK) return status;
-  walk w = {.file = file, .end = text + size, .points = -1};
-  static const char head[] = "# vtk DataFile Version";
-  const char *version = text + sizeof head - 1;
-  if (size < sizeof head || !next_count(&version, &w.version)) w.version = 0;
+  walk w = {.file = file, .end = text + size, .version = read_version(text, size), .points = -1};
   const char *word = next_line(next_line(text, w.end), w.end);
   w.binary = strncasecmp(word, "binary", 6) == 0;
   while (word < w.end && status == VSC_OK) {
