@@ -58,6 +58,8 @@ static void points_that_are_not_there(void **state)
                   "LINES names point 100000000000, the file has points 0 to 1");
   assert_no_lines(POLYDATA "POINTS 2 float\n0 0 0 10 10 10\nLINES 1 3\n2 -7 1\n", "LINES names point -7");
   assert_no_lines(POLYDATA "LINES 1 3\n2 0 1\nPOINTS 2 float\n0 0 0 10 10 10\n", "LINES but no POINTS before");
+  assert_no_lines(NEW_POLYDATA "LINES 2 2\nOFFSETS vtktypeint64\n0 2\nCONNECTIVITY vtktypeint64\n0 1\n",
+                  "LINES but no POINTS before");
   assert_no_mesh(GRID POINTS "CELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n10\n", "CELLS names point 4");
 }
 

@@ -135,6 +135,8 @@ static vsc_status check_list(const walk *w, const char *name, const char **word,
   if (!next_count(&numbers, &count) || !next_count(&numbers, &size)) return VSC_OK;
   const char *list = next_word(numbers, w->end);
   *word = list;
+  if (count > 0 && w->points < 0)
+    return vsc_fail(error, VSC_INPUT, "%s: has %s but no POINTS before them: write the file again", w->file, name);
   if (strncasecmp(list, "offsets", 7) == 0) {
     if (w->version < FIRST_WITH_OFFSETS)
       return vsc_fail(error, VSC_INPUT, "%s: %s come as OFFSETS, which the version in its first line does not have: write the "
@@ -149,8 +151,6 @@ static vsc_status check_list(const walk *w, const char *name, const char **word,
                     "%s: the cells do not fill the list announced by %s %lld %lld (cells, "
                     "numbers with the lengths): correct that line or write the file again",
                     w->file, name, count, size);
-  if (count > 0 && w->points < 0)
-    return vsc_fail(error, VSC_INPUT, "%s: has %s but no POINTS before them: write the file again", w->file, name);
   if (goes_astray(cells, count, w->points, &point))
     return vsc_fail(error, VSC_INPUT, "%s: %s names point %lld, the file has points 0 to %lld: mesh again", w->file,
                     name, (long long)point, (long long)w->points - 1);
