@@ -243,9 +243,19 @@ static vsc_status find_largest(vsc_model *model, vsc_error *error)
                   "time.selective_mass_scaling: nothing is stiff, or every node is held: leave it out");
 }
 
+static void forget(vsc_coupled_mass *mass)
+{
+  vsc_free(mass->start);
+  vsc_free(mass->columns);
+  vsc_free(mass->entries);
+  vsc_free(mass->passes);
+  *mass = (vsc_coupled_mass){0};
+}
+
 vsc_status vsc_coupled_mass_create(vsc_model *model, double rate, vsc_error *error)
 {
   couplings all = {0};
+  forget(&model->coupled);
   vsc_limit_couplings(model, rate, add_coupling, &all);
   bool made = !all.failed && vsc_sort(all.list, all.count, sizeof *all.list / sizeof(uint32_t), 2);
   if (made) add_up(&all);
