@@ -100,11 +100,28 @@ static bool guess(const vsc_model *model, vsc_state *state, double dt, double ti
   return !vsc_supports_move(model) || vsc_smallest_ratio(model, x, &element) > 0;
 }
 
-static uint32_t smallest_at(const vsc_model *model, const double *x)
+// A node of the mesh's element.
+static size_t node_of(const vsc_model *model, uint32_t element)
+{
+  for (size_t p = 0; p < model->patch_count; p++) {
+    const vsc_patch *patch = &model->patches[p];
+    for (size_t k = patch->first_pack; vsc_patch_is_solid(patch) && k < patch->first_pack + patch->pack_count; k++)
+      for (size_t l = 0; l < VSC_WIDTH; l++)
+        if (model->mesh_element[VSC_WIDTH * k + l] == element)
+          return vsc_node_of(model, patch, vsc_pack_nodes(model, patch, k)[0][l]);
+  }
+  return 0;
+}
+
+static vsc_status fail_motion(const vsc_model *model, double time, const double *x, vsc_error *error)
 {
   uint32_t element = 0;
+  char node[VSC_NODE_TEXT];
   vsc_smallest_ratio(model, x, &element);
-  return element;
+  return vsc_fail(error, VSC_NUMERICAL,
+                  "at %.6g ms no equilibrium was found: supports move so far that elements turn inside out, element %u most, "
+                  "beside %s; take a smaller motion",
+                  time, element, vsc_name_node(model, node_of(model, element), node, sizeof node));
 }
 
 // Takes x, in balance at `time` after an increment of `step`, into the state.
@@ -143,9 +160,7 @@ vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double u
     vsc_status status =
         guess(model, state, (next - done) * way, s.time, x)
             ? settle(newton, &s, x, &iterations, error)
-            : vsc_fail(error, VSC_NUMERICAL,
-                       "at %.6g ms no equilibrium was found: supports move so far that elements turn inside out, "
-                       "element %u most; take a smaller motion", s.time, smallest_at(model, x));
+            : fail_motion(model, s.time, x, error);
     if (status == VSC_OK) {
       accept(model, state, x, next == 1 ? until : s.time, (next - done) * way);
       done = next;
