@@ -48,6 +48,10 @@ static void test_damping_that_limits_the_step(void **state)
   must("$V check halves.yaml -t 1 --set 'time.selective_mass_scaling=0.02 ms'");
   assert_null(strstr(line_of("step"), advice));
   assert_holds(line_of("inertia"), "of neighbours against one another: ");
+  // not where that would be refused
+  must("$V check halves.yaml -t 1 --set keep_volume=total");
+  assert_holds(line_of("step"), mode);
+  assert_null(strstr(line_of("step"), advice));
   must("$V check halves.yaml -t 1 --set 'materials[1].viscosity=0 Pa s'");
   assert_holds(line_of("step"), "; limited most by element ");
   assert_null(strstr(line_of("step"), "damping"));

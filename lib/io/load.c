@@ -4,17 +4,17 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/mem.h"
 
 static vsc_status load(const char *file, FILE *stream, char **text, size_t *size, vsc_error *error)
 {
-  if (fseek(stream, 0, SEEK_END) != 0)
+  struct stat facts;
+  if (fstat(fileno(stream), &facts) != 0 || !S_ISREG(facts.st_mode))
     return vsc_fail(error, VSC_INPUT, "%s: is not a regular file", file);
-  const long length = ftell(stream);
-  rewind(stream);
-  if (length < 0 || !VSC_NEW(*text, (size_t)length + 1)) return vsc_fail_memory(error, "the mesh file");
-  *size = (size_t)length;
+  *size = (size_t)facts.st_size;
+  if (!VSC_NEW(*text, *size + 1)) return vsc_fail_memory(error, "a file's text");
   if (fread(*text, 1, *size, stream) == *size) return VSC_OK;
   vsc_free(*text);
   *text = NULL;

@@ -8,8 +8,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/mem.h"
+#include "io/load.h"
 #include "io/replace.h"
 
 static const double SAME_TIME = 1e-9;  // seconds
@@ -203,33 +205,15 @@ static vsc_status read_frames(vsc_pvd *pvd, const char *text, size_t size, doubl
   return r.status;
 }
 
-static vsc_status read_stream(vsc_pvd *pvd, FILE *stream, double keep_until, vsc_error *error)
-{
-  if (fseek(stream, 0, SEEK_END) != 0) return fail_damaged(pvd, "not a regular file", error);
-  const long size = ftell(stream);
-  rewind(stream);
-  if (size < 0 || size > LONGEST_FILE) return fail_damaged(pvd, "not a regular file", error);
-  char *text;
-  if (!VSC_NEW(text, (size_t)size)) return vsc_fail_memory(error, "the list of frames");
-  vsc_status status;
-  if (fread(text, 1, (size_t)size, stream) != (size_t)size)
-    status = fail_damaged(pvd, "reading failed", error);
-  else
-    status = read_frames(pvd, text, (size_t)size, keep_until, error);
-  vsc_free(text);
-  return status;
-}
-
 static vsc_status read_existing(vsc_pvd *pvd, double keep_until, vsc_error *error)
 {
-  FILE *stream = fopen(pvd->file, "rb");
-  if (stream == NULL) {
-    if (errno == ENOENT) return VSC_OK;
-    return vsc_fail(error, VSC_INPUT, "%s: cannot be opened: %s: remove it or start anew",
-                    pvd->file, strerror(errno));
-  }
-  const vsc_status status = read_stream(pvd, stream, keep_until, error);
-  fclose(stream);
+  char *text;
+  size_t size;
+  if (access(pvd->file, F_OK) != 0 && errno == ENOENT) return VSC_OK;
+  vsc_status status = vsc_load(pvd->file, &text, &size, error);
+  if (status != VSC_OK) return status;
+  status = size > LONGEST_FILE ? fail_damaged(pvd, "far too long", error) : read_frames(pvd, text, size, keep_until, error);
+  vsc_free(text);
   return status;
 }
 

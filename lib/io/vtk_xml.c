@@ -118,14 +118,10 @@ static void add_piece(walk *w, const char **attributes)
     return;
   }
   if (w->piece_count == w->piece_room) {
-    box *more;
-    if (!VSC_NEW(more, 2 * w->piece_room + 16)) {
+    if (!vsc_grow((void **)&w->pieces, w->piece_room, 2 * w->piece_room + 16, sizeof *w->pieces)) {
       stop(w, vsc_fail_memory(w->error, "the pieces of an image"));
       return;
     }
-    if (w->piece_count > 0) memcpy(more, w->pieces, w->piece_count * sizeof *more);
-    vsc_free(w->pieces);
-    w->pieces = more;
     w->piece_room = 2 * w->piece_room + 16;
   }
   w->pieces[w->piece_count++] = piece;

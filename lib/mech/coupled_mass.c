@@ -8,6 +8,7 @@
 
 #include "base/mem.h"
 #include "base/parallel.h"
+#include "base/random.h"
 #include "base/sort.h"
 #include "mech/step_limit.h"
 
@@ -159,14 +160,14 @@ static double product(const vsc_model *model, const vsc_wide *a, const vsc_wide 
   return sum;
 }
 
-// Numbers in [-1, 1) that are the same everywhere (Knuth's MMIX), 0 in held directions.
+// 0 in held directions.
 static void fill_random(const vsc_model *model, vsc_wide *v)
 {
   uint64_t seed = 1;
   for (size_t n = 0; n < model->node_count; n++)
     for (size_t i = 0; i < 3; i++) {
-      seed = seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-      v[n][i] = model->inverse_mass[4 * n + i] > 0 ? (double)(int64_t)seed * 0x1p-63 : 0;
+      const double random = vsc_next_random(&seed);
+      v[n][i] = model->inverse_mass[4 * n + i] > 0 ? random : 0;
     }
 }
 
@@ -243,19 +244,10 @@ static vsc_status find_largest(vsc_model *model, vsc_error *error)
                   "time.selective_mass_scaling: nothing is stiff, or every node is held: leave it out");
 }
 
-static void forget(vsc_coupled_mass *mass)
-{
-  vsc_free(mass->start);
-  vsc_free(mass->columns);
-  vsc_free(mass->entries);
-  vsc_free(mass->passes);
-  *mass = (vsc_coupled_mass){0};
-}
-
 vsc_status vsc_coupled_mass_create(vsc_model *model, double rate, vsc_error *error)
 {
   couplings all = {0};
-  forget(&model->coupled);
+  vsc_coupled_mass_free(&model->coupled);
   vsc_limit_couplings(model, rate, add_coupling, &all);
   bool made = !all.failed && vsc_sort(all.list, all.count, sizeof *all.list / sizeof(uint32_t), 2);
   if (made) add_up(&all);

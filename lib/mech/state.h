@@ -21,7 +21,8 @@ typedef struct vsc_limit {
   double least;       // the shortest that any estimate has allowed, ms
   double span;        // time gone through in steps that were allowed when they were taken, ms
   double caution;     // part of the allowed step that is taken: 1, but where energy did not balance with that
-  double *mode;       // node_count x 4: the eigenvector so far, of length 1 in the mass norm; owned
+  double *mode;       // node_count x 4: the eigenvector so far, of length 1 in the mass norm; of coupled masses, what is
+                      // spread to it; owned
 } vsc_limit;
 
 // Memory of the computation, rewritten at each use.

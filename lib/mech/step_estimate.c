@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "base/random.h"
 #include "mech/coupled_mass.h"
 #include "mech/force.h"
 #include "mech/step_limit.h"
@@ -50,14 +51,6 @@ typedef struct search {
   double shift;      // what is added to rate
   double parts[MOST_PIECES][SUMS];        // of sums, or in the first the largest
 } search;
-
-// Numbers in [-1, 1) that are the same everywhere (a 64-bit linear congruential generator, Knuth's
-// MMIX).
-static double next_random(uint64_t *seed)
-{
-  *seed = *seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-  return (double)(int64_t)*seed * 0x1p-63;
-}
 
 static size_t piece_count(const vsc_model *model)
 {
@@ -127,7 +120,7 @@ static void stir(search *s)
   for (size_t n = 0; n < model->node_count; n++) {
     vsc_wide random = vsc_splat(0);
     for (int i = 0; i < 3; i++)
-      if (model->inverse_mass[4 * n + (size_t)i] > 0) random[i] = next_random(&seed);
+      if (model->inverse_mass[4 * n + (size_t)i] > 0) random[i] = vsc_next_random(&seed);
     s->d[n] = random;
     noise += model->mass[n] * sum_of(random * random);
     length += model->mass[n] * sum_of(s->x[n] * s->x[n]);

@@ -18,6 +18,8 @@
 // of the mass norm is raised next, conjugate to the one before (conjugate gradients: as good as Lanczos's method, whose
 // eigenvalue after k images is about that of power iteration after k^2); of law PAPER, whose stiffness is not
 // symmetric, that of the vector itself (power iteration). What is taken for lambda is |A x|/|x|, which is below it.
+// Where masses are coupled A is M^-1 (K + 2/dt C) P, which has the eigenvalues of P M^-1 (K + 2/dt C), and products are
+// <a, b> = a . M P b (coupled_mass.h).
 // It goes on from the vector of the last estimate, stirred with noise: else a mode that becomes the stiffest elsewhere
 // would be seen too late. Changes limit.mode, limit.eigenvalue, limit.step, limit.refreshes, the state's force and
 // scratch.

@@ -21,6 +21,15 @@ static void free_order_and_elements(vsc_model *model)
   vsc_smoothing_free(&model->smoothing);
 }
 
+void vsc_coupled_mass_free(vsc_coupled_mass *mass)
+{
+  vsc_free(mass->start);
+  vsc_free(mass->columns);
+  vsc_free(mass->entries);
+  vsc_free(mass->passes);
+  *mass = (vsc_coupled_mass){0};
+}
+
 static void free_nodes(vsc_model *model)
 {
   vsc_free(model->rest);
@@ -30,10 +39,7 @@ static void free_nodes(vsc_model *model)
   vsc_free(model->velocity);
   vsc_free(model->group_volume);
   vsc_free(model->group_modulus);
-  vsc_free(model->coupled.start);
-  vsc_free(model->coupled.columns);
-  vsc_free(model->coupled.entries);
-  vsc_free(model->coupled.passes);
+  vsc_coupled_mass_free(&model->coupled);
 }
 
 static void free_lists(vsc_model *model)

@@ -26,8 +26,11 @@ typedef struct vsc_coupled_mass {
   double largest;         // what eigenvalues of M^-1 L are taken to be below, 1/ms^2
   uint32_t *start;        // node_count + 1: where a row of L starts; owned
   uint32_t *columns;      // start[node_count]: nodes, ascending in each row; owned
-  double *entries;        // start[node_count]: of L, mN/mm; owned
+  double *entries;        // start[node_count]: of L, mN/mm, rows filled up to a multiple of four with zeros at the own
+                          // node; owned
   vsc_spread_pass *passes;  // degree; owned
 } vsc_coupled_mass;
+
+void vsc_coupled_mass_free(vsc_coupled_mass *mass);  // the content
 
 #endif

@@ -52,6 +52,13 @@ static void say_part(const vsc_problem *problem, size_t slot, char *what, size_t
            patch->family == VSC_BENDS ? " (bending)" : "");
 }
 
+// Whether masses may be coupled, and are not (solve/mass_scaling.h).
+static bool may_couple(const vsc_model *model)
+{
+  return model->coupled.degree == 0 && model->step == 0 && model->obstacle_count == 0 && model->kept.count == 0 &&
+         !model->terms.paper;
+}
+
 // Where the stable step hangs: the bound knows no damping, the stiffest mode does.
 static void say_limit(const vsc_problem *problem, vsc_state *state, FILE *out)
 {
@@ -70,7 +77,7 @@ static void say_limit(const vsc_problem *problem, vsc_state *state, FILE *out)
             vsc_name_node(model, vsc_largest_node(model, limit->mode), node, sizeof node));
   }
   fprintf(out, "by %s at (%.4g, %.4g, %.4g), whose own bound is %.4g ms%s\n", what, centre[0], centre[1], centre[2], own,
-          rules && model->coupled.degree == 0 ? "; time.selective_mass_scaling makes steps of viscous tissue longer" : "");
+          rules && may_couple(model) ? "; time.selective_mass_scaling makes steps of viscous tissue longer" : "");
 }
 
 static void say_step(const vsc_problem *problem, vsc_state *state, FILE *out)
@@ -87,8 +94,8 @@ static void say_step(const vsc_problem *problem, vsc_state *state, FILE *out)
     fprintf(out, "mass       %.3g %% added at %zu nodes, the most %.3g times what one weighs, for steps of %.4g ms\n",
             100 * scaled->added / model->total_mass, scaled->nodes, scaled->most, scaled->step);
   if (model->coupled.degree > 0)
-    fprintf(out, "inertia    of neighbours against one another: %d passes over the nodes in each step, for steps of %.4g ms\n",
-            model->coupled.degree, model->coupled.step);
+    fprintf(out, "inertia    of neighbours against one another: %d pass%s over the nodes in each step, for steps of %.4g ms\n",
+            model->coupled.degree, model->coupled.degree > 1 ? "es" : "", model->coupled.step);
 }
 
 static double memory_bytes(const vsc_model *model)

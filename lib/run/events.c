@@ -6,7 +6,6 @@
 #define USUAL_LOOK 1.0    // ms between two looks of the energy ledger,
 #define STEPS_OF_LOOK 32  // or as many steps, whichever is longer
 #define LOOKS_PER_PERIOD 16
-#define SAME_TIME 1e-12   // part of a time by which multiples of intervals differ by rounding
 #define MOST_EVENTS 100000  // that are counted one by one
 
 // A period must not slip through between two looks.
@@ -38,8 +37,8 @@ double vsc_events_look(const vsc_model *model, const vsc_state *state, double ro
 static double next_multiple(double time, double interval, double end)
 {
   if (!(interval > 0)) return end;
-  const double next = interval * (floor(time / interval * (1 + SAME_TIME)) + 1);
-  return next < end * (1 - SAME_TIME) ? next : end;
+  const double next = interval * (floor(time / interval * (1 + VSC_SAME_TIME)) + 1);
+  return next < end * (1 - VSC_SAME_TIME) ? next : end;
 }
 
 double vsc_events_next(const vsc_problem *problem, double look, double time)
@@ -54,18 +53,18 @@ double vsc_events_next(const vsc_problem *problem, double look, double time)
 
 bool vsc_events_between(double before, double now, double interval, double end)
 {
-  if (now >= end * (1 - SAME_TIME)) return true;
-  return interval > 0 && next_multiple(before, interval, end) <= now * (1 + SAME_TIME);
+  if (now >= end * (1 - VSC_SAME_TIME)) return true;
+  return interval > 0 && next_multiple(before, interval, end) <= now * (1 + VSC_SAME_TIME);
 }
 
 double vsc_events_steps(const vsc_problem *problem, double look, double start, double dt)
 {
   const double end = problem->model->end_time;
-  if (problem->model->step > 0) return ceil((end - start) / dt * (1 - SAME_TIME));
+  if (problem->model->step > 0) return ceil((end - start) / dt * (1 - VSC_SAME_TIME));
   double time = start, steps = 0;
-  for (size_t k = 0; k < MOST_EVENTS && time < end * (1 - SAME_TIME); k++) {
+  for (size_t k = 0; k < MOST_EVENTS && time < end * (1 - VSC_SAME_TIME); k++) {
     const double next = vsc_events_next(problem, look, time);
-    steps += fmax(ceil((next - time) / dt * (1 - SAME_TIME)), 1);
+    steps += fmax(ceil((next - time) / dt * (1 - VSC_SAME_TIME)), 1);
     time = next;
   }
   return time > start ? steps * (end - start) / (time - start) : 0;
@@ -74,5 +73,5 @@ double vsc_events_steps(const vsc_problem *problem, double look, double start, d
 double vsc_events_frames(const vsc_problem *problem, double start)
 {
   const double interval = problem->scene->output.frame_interval, end = problem->model->end_time;
-  return 1 + ceil(end / interval * (1 - SAME_TIME)) - floor(start / interval * (1 + SAME_TIME));
+  return 1 + ceil(end / interval * (1 - VSC_SAME_TIME)) - floor(start / interval * (1 + VSC_SAME_TIME));
 }

@@ -8,6 +8,8 @@
 
 #include "run/problem.h"
 
+#define VSC_SAME_TIME 1e-12  // part of a time by which multiples of intervals differ by rounding
+
 // The way between two looks: a whole part of `rows`, that between two rows of signals, not longer than a sixteenth of
 // any curve's period and about the usual one; looks cost as much as some steps. Of methods without a ledger, `rows`.
 double vsc_events_look(const vsc_model *model, const vsc_state *state, double rows);

@@ -19,7 +19,6 @@
 #define TURNS 4           // how often a way is gone again
 #define CALM 16           // good looks after which shorter steps become longer again
 #define LEAST_CAUTION 0x1p-6
-#define SAME_TIME 1e-12   // part of a time by which multiples of intervals differ by rounding
 
 void vsc_run_name(const char *file, char *name, size_t size)
 {
@@ -249,7 +248,7 @@ static vsc_status go_closer(vsc_job *job, double start, double time, int looks, 
 {
   for (int k = 1; k <= looks; k++) {
     const double next = k < looks ? start + (time - start) * k / looks : time;
-    if (next <= job->state->time * (1 + SAME_TIME)) continue;
+    if (next <= job->state->time * (1 + VSC_SAME_TIME)) continue;
     const vsc_status status = go_to(job, next, error);
     if (status != VSC_OK) return status;
   }
@@ -324,7 +323,7 @@ static vsc_status advance(vsc_job *job, double stop, vsc_error *error)
   vsc_error reason;  // of ways that are gone again, too
   // the ledger wants its looks, however rare the rows are
   const double look = vsc_events_look(job->problem->model, state, output->signal_interval);
-  while (state->time < stop * (1 - SAME_TIME) && status == VSC_OK && !repeats(job) && !is_interrupted(job)) {
+  while (state->time < stop * (1 - VSC_SAME_TIME) && status == VSC_OK && !repeats(job) && !is_interrupted(job)) {
     const double before = state->time;
     status = go_to_look(job, vsc_events_next(job->problem, look, before), &reason);
     if (status != VSC_OK && is_interrupted(job)) {  // the method has given up on its way
@@ -421,7 +420,7 @@ vsc_status vsc_run(vsc_problem *problem, const vsc_run_options *options, vsc_run
     const double end = problem->model->end_time;
     const double stop = options->stop_time > 0 ? fmin(options->stop_time, end) : end;
     status = advance(&job, stop, error);
-    result->interrupted = is_interrupted(&job) && !repeats(&job) && job.state->time < stop * (1 - SAME_TIME);
+    result->interrupted = is_interrupted(&job) && !repeats(&job) && job.state->time < stop * (1 - VSC_SAME_TIME);
   }
   if (status == VSC_OK) status = save(&job, error);
   if (status == VSC_OK) {

@@ -8,10 +8,12 @@
 // Prepares a new state for stepping: the first estimate of the stable step, at rest and at full
 // activation (the smaller counts), and the first acceleration. Refuses (VSC_INPUT) a user's step
 // above the stable one, with both numbers, unless the model forces it. Where volumes are kept, vsc_keep_volume_ready.
+// Where masses are coupled the model's initial velocity times its lumped masses is the momentum that the body has.
 vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error);
 
 // `count` (at least 1) steps of length dt (ms), each
 //   v <- v + dt/2 a;  x <- x + dt v;  a <- f(x, v + dt/4 (a + a'), t + dt) / m;  v <- v + dt/2 a.
+// Where masses are coupled a <- P f / m (mech/coupled_mass.h), with f / m and the momenta over m beside them.
 // After the drift nodes are put out of obstacles (contact.h) and kept volumes back to what they were
 // (keep_volume.h), whose failure is the only one.
 // Second order, symplectic without damping. Damping sees the velocity predicted for the step's end, with the mean of

@@ -89,7 +89,7 @@ const vsc_bench_problem vsc_bench_twisting_column = {
   IN_BAND(p, "x", 0, curves), IN_BAND(p, "y", 1, curves), IN_BAND(p, "z", 2, curves)
 
 // Viscosity and dashpots bring the stable step down to 0.003 ms: inertia of neighbours against one another makes it 0.1 ms,
-// which moves no distance below by more than WITHIN.
+// which moves no distance below by more than 0.013.
 static const vsc_bench_variant both_ways[] = {
     {"implicit", 0, {"solve=implicit"}},
     {"explicit", 0, {"solve=explicit", "time.selective_mass_scaling=0.1 ms"}},

@@ -306,7 +306,8 @@ static vsc_status write_scene(const vsc_stress_case *at, const char *folder, boo
   // the ledger sees loads at its looks only
   const double look = stress->curve != NULL || stress->pressure > 0 ? 0.02 : 0.1;
   fprintf(file, "solve: %s\ntime: {end: %g ms}\noutput: {frames: %g ms, signals: %g ms}\n",
-          at->method == VSC_STRESS_COUPLED ? "explicit" : vsc_stress_methods[at->method], end, end, at->method == VSC_STRESS_EQUILIBRIUM ? end / 10 : look);
+          vsc_stress_methods[at->method == VSC_STRESS_COUPLED ? VSC_STRESS_EXPLICIT : at->method], end, end,
+          at->method == VSC_STRESS_EQUILIBRIUM ? end / 10 : look);
   if (fclose(file) == 0) return VSC_OK;
   return vsc_fail(error, VSC_SYSTEM, "%s: cannot be written: %s", name, strerror(errno));
 }
