@@ -46,6 +46,7 @@ static const char *title_of(const table *of)
   return strcmp(of->name, "time") == 0    ? "one mesh, against far shorter steps"
          : strcmp(of->name, "space") == 0 ? "meshes, against the finest of the first kind"
          : strcmp(of->name, "real_time") == 0 ? "a heart in real time, against short steps"
+         : strcmp(of->name, "slivers") == 0   ? "a bar with slivers, against short steps"
                                               : of->name;
 }
 
