@@ -47,7 +47,8 @@ VSC_INLINE vsc_wide vsc_splat(double a)
 VSC_INLINE vsc_wide vsc_join(vsc_four first, vsc_four second)
 {
 #ifdef VSC_EIGHT_LANES
-  return __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
+  // not a shuffle: this one instruction loads what it inserts
+  return (vsc_wide)_mm512_insertf64x4(_mm512_castpd256_pd512((__m256d)first), (__m256d)second, 1);
 #else
   (void)second;
   return first;

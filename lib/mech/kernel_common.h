@@ -111,6 +111,12 @@ VSC_INLINE vsc_wide cofactor_of(const vsc_wide3 g[3], vsc_wide3 cofactor[3])
   return vsc_wide_dot(g[0], cofactor[0]);
 }
 
+// P_a += p cof_a
+VSC_INLINE void add_pressure(vsc_wide p, const vsc_wide3 cofactor[3], vsc_wide3 P[3])
+{
+  for (int a = 0; a < 3; a++) P[a] = vsc_wide_add(P[a], vsc_wide_scale(p, cofactor[a]));
+}
+
 // What is added to the pressure that the frames of a pack share.
 VSC_INLINE vsc_wide multiplier_of(const vsc_patch_work *work, size_t k)
 {

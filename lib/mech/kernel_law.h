@@ -58,9 +58,9 @@ VSC_INLINE void law_frame(const vsc_law_input *in, const vsc_wide3 g[3], const v
   vsc_stress_on_axes(S, g, P);
   vsc_wide3 cofactor[3];
   const vsc_wide J = cofactor_of(g, cofactor);
-  const vsc_wide p = pressure + vsc_volume_stress(own_modulus, J) +
-                     vsc_rest_stress(vsc_splat(in->material->rest_shear), J);
-  for (int a = 0; a < 3; a++) P[a] = vsc_wide_add(P[a], vsc_wide_scale(p, cofactor[a]));
+  add_pressure(pressure + vsc_volume_stress(own_modulus, J) +
+                   vsc_rest_stress(vsc_splat(in->material->rest_shear), J),
+               cofactor, P);
 }
 
 // `general`: any law of strain; else law SPRINGS with none of its further features.

@@ -63,10 +63,12 @@ VSC_INLINE void smoothed_kernel(const vsc_patch_work *work, bool volume, bool no
     vsc_wide3 P[3];
     gather_edge_stress(&work->smoothed[k], work->edge_stress, P);
     if (volume) {
-      vsc_wide3 edge[3], g[3];
-      gather_edges(pack, 0, work->x, edge);
-      frame_axes(pack, 0, edge, g);
-      add_volume_stress(pack, 0, moduli_of(work, k, false).element_modulus, work->pressure, g, nodal, P);
+      vsc_wide3 g[3], cofactor[3];
+      gather_axes(work, k, work->x, g);
+      const vsc_wide J = cofactor_of(g, cofactor);
+      vsc_wide p = vsc_volume_stress(moduli_of(work, k, false).element_modulus, J);
+      if (nodal) p += mean_pressure(pack, 0, work->pressure);
+      add_pressure(p, cofactor, P);
     }
     scatter_forces(pack, 0, P, work->f);
   }

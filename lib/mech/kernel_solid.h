@@ -220,8 +220,7 @@ VSC_INLINE void solid_stress(const vsc_patch_work *work, size_t k, const vsc_mix
   add_more_axes(work, moduli->share, g, rate, damping, P);
   vsc_wide3 cofactor[3];
   const vsc_wide J = cofactor_of(g, cofactor);
-  const vsc_wide p = pressure + vsc_volume_stress(moduli->stabilization, J);
-  for (int a = 0; a < 3; a++) P[a] = vsc_wide_add(P[a], vsc_wide_scale(p, cofactor[a]));
+  add_pressure(pressure + vsc_volume_stress(moduli->stabilization, J), cofactor, P);
 }
 
 #endif

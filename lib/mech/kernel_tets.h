@@ -5,9 +5,10 @@
 
 #include "mech/kernel_law.h"
 
-// Turns of packs that go through each stage together. One pack is a chain of some 170 cycles (gather, roots,
-// a division, scatter) of 590 instructions, more than a processor looks ahead: stage by stage,
-// packs overlap.
+// Turns of packs that go through each stage together. One pack is a chain of some 250 cycles (gather, roots,
+// divisions, stress, scatter) of 600 instructions, more than a processor looks ahead: stage by stage,
+// packs overlap. Roots and divisions are at the end of the first stage, where gathering the next pack fills
+// the wait for them.
 enum { TOGETHER = 8 / PACKS, CACHE_LINE = 64 };
 
 // The processor fetches packs ahead of its use: its own prediction stops where a stage ends.
@@ -71,26 +72,33 @@ VSC_INLINE vsc_wide mean_pressure(const vsc_pack *pack, size_t other, const doub
   return 0.25 * sum;
 }
 
-// P_a += p cof_a,  cof(G) = [g_s x g_n | g_n x g_f | g_f x g_s],  p = U'(J) of the tet + mean of
-// its nodes'
-VSC_INLINE void add_volume_stress(const vsc_pack *pack, size_t other, vsc_wide modulus, const double *pressure,
-                                  const vsc_wide3 g[3], bool nodal, vsc_wide3 P[3])
+// A pack (and the one behind it) deformed: what roots and divisions are taken of.
+typedef struct pack_shape {
+  vsc_wide3 g[3], cofactor[3];
+  vsc_wide length[3], inverse[3];  // n_a, 1/n_a
+  vsc_wide pressure;               // U'(J) of the tet itself
+} pack_shape;
+
+VSC_INLINE void measure_shape(const vsc_patch_work *work, size_t k, bool composed, pack_shape *shape)
 {
-  vsc_wide3 cofactor[3];
-  const vsc_wide J = cofactor_of(g, cofactor);
-  vsc_wide p = vsc_volume_stress(modulus, J);
-  if (nodal) p += mean_pressure(pack, other, pressure);
-  for (int a = 0; a < 3; a++) P[a] = vsc_wide_add(P[a], vsc_wide_scale(p, cofactor[a]));
+  vsc_frame_lengths(shape->g, shape->length, shape->inverse);
+  const vsc_wide J = cofactor_of(shape->g, shape->cofactor);
+  shape->pressure = vsc_volume_stress(moduli_of(work, k, composed).element_modulus, J);
 }
 
-// P_a of pack k (and the one behind it) from its axes and their rates.
-VSC_INLINE void pack_stress(const vsc_patch_work *work, size_t k, const vsc_wide3 g[3],
+// P_a of pack k (and the one behind it) from its shape and the rates of its axes.
+VSC_INLINE void pack_stress(const vsc_patch_work *work, size_t k, const pack_shape *shape,
                             const vsc_wide3 rate[3], bool composed, bool damping,
                             vsc_active_kind active, bool nodal, vsc_wide3 P[3])
 {
   const vsc_pack *pack = (const vsc_pack *)work->packs + k;
   const vsc_mixture moduli = moduli_of(work, k, composed);
-  const vsc_frame_axes frame = vsc_frame_of(g);
+  vsc_frame_axes frame;
+  for (int a = 0; a < 3; a++) {
+    frame.length[a] = shape->length[a];
+    frame.inverse[a] = shape->inverse[a];
+    frame.u[a] = vsc_wide_scale(frame.inverse[a], shape->g[a]);
+  }
   vsc_wide along[3] = {vsc_splat(0), vsc_splat(0), vsc_splat(0)};
   // eta_a dg_a/dt . u_a
   for (int a = 0; damping && a < 3; a++)
@@ -102,8 +110,10 @@ VSC_INLINE void pack_stress(const vsc_patch_work *work, size_t k, const vsc_wide
   if (active == VSC_ACTIVE_TENSION)
     along[0] += moduli.share * activation * work->material->tension * frame.length[0];
   vsc_springs_stress(&law, &frame, along, P);
-  if (composed) add_more_axes(work, moduli.share, g, rate, damping, P);
-  add_volume_stress(pack, other_pack(work, k), moduli.element_modulus, work->pressure, g, nodal, P);
+  if (composed) add_more_axes(work, moduli.share, shape->g, rate, damping, P);
+  vsc_wide p = shape->pressure;
+  if (nodal) p += mean_pressure(pack, other_pack(work, k), work->pressure);
+  add_pressure(p, shape->cofactor, P);
 }
 
 VSC_INLINE void gather_axes(const vsc_patch_work *work, size_t k, const double *nodes, vsc_wide3 g[3])
@@ -129,21 +139,25 @@ VSC_INLINE void pack_law_stress(const vsc_patch_work *work, size_t k, const vsc_
 VSC_INLINE void force_kernel(const vsc_patch_work *work, bool general, bool composed, bool damping,
                              vsc_active_kind active, bool nodal)
 {
-  vsc_wide3 g[TOGETHER][3], rate[TOGETHER][3], P[TOGETHER][3];
+  pack_shape shape[TOGETHER];
+  vsc_wide3 rate[TOGETHER][3], P[TOGETHER][3];
   vsc_law_input in;
   if (general) in = law_input_of(work, 0);
   const vsc_pack *packs = work->packs;
   for (size_t first = 0; first < work->pack_count; first += TOGETHER * PACKS) {
     const size_t left = (work->pack_count - first + PACKS - 1) / PACKS;
     const size_t count = left < TOGETHER ? left : TOGETHER;
-    for (size_t t = 0; t < count; t++) gather_axes(work, first + PACKS * t, work->x, g[t]);
+    for (size_t t = 0; t < count; t++) {
+      gather_axes(work, first + PACKS * t, work->x, shape[t].g);
+      if (!general) measure_shape(work, first + PACKS * t, composed, &shape[t]);
+    }
     for (size_t t = 0; damping && t < count; t++) gather_axes(work, first + PACKS * t, work->w, rate[t]);
     for (size_t t = 0; t < count; t++) {
       fetch_packs(&packs[first + PACKS * (t + TOGETHER)]);
       if (general)
-        pack_law_stress(work, first + PACKS * t, g[t], rate[t], damping, &in, P[t]);
+        pack_law_stress(work, first + PACKS * t, shape[t].g, rate[t], damping, &in, P[t]);
       else
-        pack_stress(work, first + PACKS * t, g[t], rate[t], composed, damping, active, nodal, P[t]);
+        pack_stress(work, first + PACKS * t, &shape[t], rate[t], composed, damping, active, nodal, P[t]);
     }
     for (size_t t = 0; t < count; t++)
       scatter_forces(&packs[first + PACKS * t], other_pack(work, first + PACKS * t), P[t], work->f);

@@ -26,22 +26,26 @@ typedef struct vsc_frame_axes {
   vsc_wide inverse[3];  // 1/n_a (0 likewise)
 } vsc_frame_axes;
 
-VSC_INLINE vsc_frame_axes vsc_frame_of(const vsc_wide3 g[3])
+// n_a and 1/n_a (0 for an axis without direction).
+VSC_INLINE void vsc_frame_lengths(const vsc_wide3 g[3], vsc_wide length[3], vsc_wide inverse[3])
 {
-  vsc_frame_axes frame;
   vsc_wide safe[3];
   for (int a = 0; a < 3; a++) {
-    frame.length[a] = vsc_wide_sqrt(vsc_wide_dot(g[a], g[a]));
+    length[a] = vsc_wide_sqrt(vsc_wide_dot(g[a], g[a]));
     const vsc_wide shortest = vsc_splat(VSC_SHORTEST_AXIS);
-    safe[a] = vsc_select(frame.length[a] > shortest, frame.length[a], shortest);
+    safe[a] = vsc_select(length[a] > shortest, length[a], shortest);
   }
   // one division for the three inverses
   const vsc_wide product = 1.0 / (safe[0] * safe[1] * safe[2]);
-  for (int a = 0; a < 3; a++) {
-    const vsc_wide inverse = product * safe[(a + 1) % 3] * safe[(a + 2) % 3];
-    frame.inverse[a] = vsc_where(frame.length[a] > VSC_SHORTEST_AXIS, inverse);
-    frame.u[a] = vsc_wide_scale(frame.inverse[a], g[a]);
-  }
+  for (int a = 0; a < 3; a++)
+    inverse[a] = vsc_where(length[a] > VSC_SHORTEST_AXIS, product * safe[(a + 1) % 3] * safe[(a + 2) % 3]);
+}
+
+VSC_INLINE vsc_frame_axes vsc_frame_of(const vsc_wide3 g[3])
+{
+  vsc_frame_axes frame;
+  vsc_frame_lengths(g, frame.length, frame.inverse);
+  for (int a = 0; a < 3; a++) frame.u[a] = vsc_wide_scale(frame.inverse[a], g[a]);
   return frame;
 }
 
