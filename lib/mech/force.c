@@ -41,40 +41,13 @@ static local_arrays local_of(const evaluation *e, int thread)
   return local;
 }
 
-// The deformed volume of a shared node's group: the sum of its parts, in the order of the patches.
-static double shared_volume(const vsc_model *model, const double *partial_volume, uint32_t node)
+// The pressures of the patch's nodes, own nodes first.
+static void gather_pressures(const evaluation *e, const vsc_patch *patch, double *local)
 {
-  const size_t s = node - model->own_node_count;
-  double volume = 0;
-  for (uint32_t k = model->sum_start[s]; k < model->sum_start[s + 1]; k++)
-    volume += partial_volume[model->sum_place[k]];
-  return volume;
-}
-
-static double group_volume(const vsc_model *model, const vsc_scratch *scratch, uint32_t node)
-{
-  return node < model->own_node_count ? scratch->volume[node]
-                                      : shared_volume(model, scratch->partial_volume, node);
-}
-
-// p_n = U'(J_n) with K_n for the patch's nodes
-static void gather_pressures(const evaluation *e, const vsc_patch *patch, double *pressure)
-{
-  const vsc_model *model = e->model;
-  const size_t count = patch->own_count + patch->shared_count;
-  for (size_t n = 0; n < count; n += VSC_WIDTH) {
-    vsc_wide J = vsc_splat(1), K = vsc_splat(0);
-    for (size_t l = 0; l < VSC_WIDTH && n + l < count; l++) {
-      const uint32_t node = vsc_node_of(model, patch, (uint32_t)(n + l));
-      J[l] = group_volume(model, e->scratch, node) / model->group_volume[node];
-      K[l] = model->group_modulus[node];
-    }
-    const vsc_wide p = vsc_volume_stress(K, J);
-    for (size_t l = 0; l < VSC_WIDTH && n + l < count; l++) pressure[n + l] = p[l];
-    const double *multiplier = e->scratch->node_multiplier;
-    for (size_t l = 0; multiplier != NULL && l < VSC_WIDTH && n + l < count; l++)
-      pressure[n + l] += multiplier[vsc_node_of(model, patch, (uint32_t)(n + l))];
-  }
+  const double *pressure = e->scratch->pressure;
+  const uint32_t *shared = e->model->shared + patch->first_shared;
+  memcpy(local, pressure + patch->first_node, patch->own_count * sizeof *local);
+  for (uint32_t n = 0; n < patch->shared_count; n++) local[patch->own_count + n] = pressure[shared[n]];
 }
 
 // Activation of the patch's packs at this time: one number when all its elements agree. Returns the
@@ -264,11 +237,50 @@ VSC_CLONED static void sum_all(void *context, size_t piece, int thread)
     ((vsc_wide *)s->force)[n] = vsc_node_force(s->model, s->scratch, s->force, n);
 }
 
-// The volumes of all groups; those of patches that are still only once.
+// The deformed volume of a shared node's group: the sum of its parts, in the order of the patches.
+static double shared_volume(const vsc_model *model, const double *partial_volume, size_t node)
+{
+  const size_t s = node - model->own_node_count;
+  double volume = 0;
+  for (uint32_t k = model->sum_start[s]; k < model->sum_start[s + 1]; k++)
+    volume += partial_volume[model->sum_place[k]];
+  return volume;
+}
+
+// p = U'(J) with K, and what multipliers add, of as many nodes from n on as `width` says: one, or VSC_WIDTH.
+VSC_INLINE void press(const vsc_model *model, const vsc_scratch *scratch, size_t n, size_t width)
+{
+  vsc_wide volume = vsc_splat(1), rest = vsc_splat(1), modulus = vsc_splat(0), multiplier = vsc_splat(0);
+  const size_t bytes = width * sizeof(double);
+  memcpy(&volume, scratch->volume + n, bytes);
+  memcpy(&rest, model->group_volume + n, bytes);
+  memcpy(&modulus, model->group_modulus + n, bytes);
+  if (scratch->node_multiplier != NULL) memcpy(&multiplier, scratch->node_multiplier + n, bytes);
+  const vsc_wide p = vsc_volume_stress(modulus, volume / rest) + multiplier;
+  memcpy(scratch->pressure + n, &p, bytes);
+}
+
+VSC_CLONED static void press_nodes(void *context, size_t piece, int thread)
+{
+  (void)thread;
+  const node_pass *s = context;
+  const vsc_model *model = s->model;
+  const vsc_scratch *scratch = s->scratch;
+  const size_t begin = piece * NODES_PER_PIECE, end = piece_end(s, piece);
+  for (size_t n = begin > model->own_node_count ? begin : model->own_node_count; n < end; n++)
+    scratch->volume[n] = shared_volume(model, scratch->partial_volume, n);
+  size_t n = begin;
+  for (; n + VSC_WIDTH <= end; n += VSC_WIDTH) press(model, scratch, n, VSC_WIDTH);
+  for (; n < end; n++) press(model, scratch, n, 1);
+}
+
+// The volumes of all groups (of patches that are still only once) and their pressures.
 static void sum_volumes(evaluation *e)
 {
+  node_pass pass = {.model = e->model, .scratch = e->scratch};
   vsc_parallel_for(e->model->patch_count, patch_volume, e);
   e->scratch->still_known = true;
+  for_nodes(&pass, press_nodes);
 }
 
 void vsc_force_parts(const vsc_model *model, const double *x, const double *w, double time,
@@ -316,5 +328,5 @@ void vsc_group_ratios(const vsc_model *model, const double *x, vsc_scratch *scra
 {
   vsc_group_volumes(model, x, scratch);
   for (size_t n = 0; n < model->node_count; n++)
-    ratio[n] = group_volume(model, scratch, (uint32_t)n) / model->group_volume[n];
+    ratio[n] = scratch->volume[n] / model->group_volume[n];
 }

@@ -45,7 +45,7 @@ static bool allocate(const vsc_model *model, vsc_state *state)
          VSC_NEW(state->force, 4 * n) && VSC_NEW(state->limit.mode, 4 * n) &&
          VSC_NEW(scratch->local, (size_t)vsc_parallel_threads() * scratch->local_size) &&
          VSC_NEW(scratch->partial, 4 * model->partial_count) &&
-         VSC_NEW(scratch->volume, nodal ? n : 0) &&
+         VSC_NEW(scratch->volume, nodal ? n : 0) && VSC_NEW(scratch->pressure, nodal ? n : 0) &&
          VSC_NEW(scratch->partial_volume, nodal ? model->partial_count : 0) &&
          VSC_NEW(scratch->gradient, tets) && VSC_NEW(scratch->rate, model->terms.damping ? tets : 0) &&
          VSC_NEW(scratch->edge_stress, VSC_MATRIX * VSC_WIDTH * model->smoothing.pack_count) &&
@@ -135,6 +135,7 @@ void vsc_state_free(vsc_state *state)
   vsc_free(state->scratch.pull);
   vsc_free(state->scratch.volume);
   vsc_free(state->scratch.partial_volume);
+  vsc_free(state->scratch.pressure);
   vsc_free(state->scratch.gradient);
   vsc_free(state->scratch.rate);
   vsc_free(state->scratch.edge_stress);

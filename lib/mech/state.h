@@ -35,7 +35,8 @@ typedef struct vsc_scratch {
   double *outside;         // node_count x 4: forces of loads on surfaces, mN; NULL where there are none
   double *pull;            // 4 for each row of the largest of model.robins: what springs and dashpots there
                            // pull with, kPa; NULL likewise
-  double *volume;          // node_count: deformed volume of the nodes' groups (own nodes), mm^3
+  double *volume;          // node_count: deformed volume of the nodes' groups, mm^3
+  double *pressure;        // node_count: of the nodes' groups, U'(J) and what a multiplier adds, kPa
   double *partial_volume;  // partial_count: parts of the same for shared nodes
   bool still_known;        // whether these have what patches that are still give to them
   // smoothed tets: F of each slot, [slot][column][4], dF/dt (with damping), and P_e of each edge likewise, kPa
