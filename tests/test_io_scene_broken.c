@@ -98,6 +98,8 @@ static const struct {
     {"rest_stretch: 0.8", "rest_stretch: 0.8 mm", "44:", "materials[1].active.rest_stretch:",
      "plain number"},
     {"step: 0.01 ms", "step: automatic", "56:", "time.step:", ", or auto"},
+    {"step: 0.01 ms", "step: 0 s", "56:", "time.step:", "\"0 s\": not above zero; give more, or leave it out (auto)"},
+    {"step: 0.01 ms", "step: -1 ms", "56:", "time.step:", "\"-1 ms\": not above zero"},
     // numbers out of range
     {"f: 10 kPa", "f: -10 kPa", "24:", "materials[0].axial.f:", "zero or more"},
     {"1050 kg/m3", "0 kg/m3", "23:", "materials[0].density:", "above zero"},

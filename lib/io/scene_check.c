@@ -176,7 +176,7 @@ static vsc_status check_point(vsc_reading *reading, const vsc_output_def *output
     return vsc_reading_fail(reading, "%zu of them; expected at most %d", output->point_count,
                             VSC_OUTPUT_POINTS);
   }
-  const size_t length = vsc_enter(reading, "name");
+  vsc_enter(reading, "name");
   if (point->name[0] == '\0' || !vsc_name_is_plain(point->name))
     return vsc_reading_fail(reading, "\"%s\"; expected a name without commas, brackets, quotes and backslashes",
                             point->name);
@@ -184,10 +184,6 @@ static vsc_status check_point(vsc_reading *reading, const vsc_output_def *output
     if (strcmp(output->points[k].name, point->name) == 0)
       return vsc_reading_fail(reading, "\"%s\" names another point too; choose another name",
                               point->name);
-  vsc_leave(reading, length);
-  vsc_enter(reading, "reach");
-  if (!(point->reach >= 0))
-    return vsc_reading_fail(reading, "%g mm; expected a length from zero on, or auto", point->reach);
   vsc_leave(reading, 0);
   return VSC_OK;
 }

@@ -50,10 +50,14 @@ static vsc_status read_texts(vsc_reading *reading, const vsc_row *row, const vsc
 static vsc_status read_quantity(vsc_reading *reading, const vsc_row *row, const vsc_slot *slot,
                                 void *field)
 {
+  const char *text = slot->value, *word = row->zero_word;
   double value = 0;
   vsc_status status = VSC_OK;
-  if (row->zero_word == NULL || strcmp(slot->value, row->zero_word) != 0)
-    status = read_text(reading, row, slot->value, &value);
+  if (word == NULL || strcmp(text, word) != 0) {
+    status = read_text(reading, row, text, &value);
+    if (status == VSC_OK && word != NULL && !(value > 0))
+      return vsc_reading_fail(reading, "\"%s\": not above zero; give more, or leave it out (%s)", text, word);
+  }
   if (status == VSC_OK) memcpy(field, &value, sizeof value);
   return status;
 }

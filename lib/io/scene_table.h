@@ -48,7 +48,7 @@ typedef struct vsc_row {
   size_t count_offset;         // SERIES, INTEGERS, NAMES, GROUPS: of the size_t that counts them
   const vsc_word *words;       // CHOICE, NAMES, FLAGS; ended by a NULL word
   const struct vsc_group *group;  // GROUP, GROUPS
-  const char *zero_word;       // QUANTITY: a word that stands for 0
+  const char *zero_word;       // QUANTITY: a word for what is found by itself, stored as 0; a number must be above 0
   unsigned allowed;            // kinds (bits 1 << kind) of the group that have this key; 0: all
   unsigned needed;             // kinds that cannot do without it
   int selects;                 // 1 + the kind that the key's presence gives the group; 0: none
