@@ -200,6 +200,26 @@ SPOIL(end_time, d->end_time = 0)
 SPOIL(step, d->step = -0.1)
 SPOIL(safety, d->safety = 0)
 SPOIL(masses, d->masses = VSC_MASS_CONSISTENT)
+SPOIL(kind_of_law, d->materials[1].law = (vsc_law)99)
+SPOIL(kind_of_compression, d->materials[1].compression = (vsc_fibre_switch)3)
+SPOIL(kind_of_activity, d->materials[0].active.kind = (vsc_active_kind)3)
+SPOIL(kind_of_active_curve, d->materials[1].active.curve.kind = (vsc_curve_kind)8)
+SPOIL(kind_of_support_curve, d->supports[0].curve.kind = (vsc_curve_kind)-1)
+SPOIL(kind_of_pressure_curve, d->pressures[0].curve.kind = (vsc_curve_kind)8)
+SPOIL(kind_of_surface, d->surfaces[0].kind = (vsc_select_kind)6)
+SPOIL(kind_of_set, d->sets[1].kind = (vsc_select_kind)6)
+SPOIL(kind_of_volume, d->volume = (vsc_volume_kind)2)
+SPOIL(kind_of_tets, d->tets = (vsc_tets_kind)2)
+SPOIL(kind_of_keeping, d->kept_volume = (vsc_kept_volume)5)
+SPOIL(kind_of_masses, d->masses = (vsc_mass_kind)4)
+SPOIL(kind_of_solve, d->solve.kind = (vsc_solve_kind)3)
+SPOIL(kind_of_method, d->solve.method = (vsc_statics)2)
+SPOIL(kind_of_linear, d->solve.linear = (vsc_linear_kind)3)
+SPOIL(kind_of_scheme, d->solve.scheme = (vsc_scheme)3)
+SPOIL(kind_of_obstacle, assert_true(VSC_NEW(d->obstacles, 1)); d->obstacle_count = 1;
+      d->obstacles[0] = vsc_default_obstacle(); d->obstacles[0].kind = (vsc_obstacle_kind)2)
+SPOIL(kind_of_obstacle_curve, assert_true(VSC_NEW(d->obstacles, 1)); d->obstacle_count = 1;
+      d->obstacles[0] = vsc_default_obstacle(); d->obstacles[0].curve.kind = (vsc_curve_kind)8)
 
 static const struct {
   spoil *apply;
@@ -286,6 +306,24 @@ static const struct {
     {short_end, "time.end: ", "1e-9 ms at least"},
     {step, "time.step: -0.1 ms: ", "zero or more"},
     {safety, "time.safety: 0: ", "up to 1"},
+    {kind_of_law, "materials[1].law: 99: ", "no such kind"},
+    {kind_of_compression, "materials[1].compression: 3: ", "no such kind"},
+    {kind_of_activity, "materials[0].active.kind: 3: ", "no such kind"},
+    {kind_of_active_curve, "materials[1].active.curve.kind: 8: ", "no such kind"},
+    {kind_of_support_curve, "supports[0].curve.kind: -1: ", "no such kind"},
+    {kind_of_pressure_curve, "pressures[0].curve.kind: 8: ", "no such kind"},
+    {kind_of_surface, "surfaces[0].kind: 6: ", "no such kind"},
+    {kind_of_set, "node_sets[1].kind: 6: ", "no such kind"},
+    {kind_of_volume, "volume: 2: ", "no such kind"},
+    {kind_of_tets, "tets: 2: ", "no such kind"},
+    {kind_of_keeping, "keep_volume: 5: ", "no such kind"},
+    {kind_of_masses, "masses: 4: ", "no such kind"},
+    {kind_of_solve, "solve: 3: ", "no such kind"},
+    {kind_of_method, "solver.method: 2: ", "no such kind"},
+    {kind_of_linear, "solver.linear: 3: ", "no such kind"},
+    {kind_of_scheme, "solver.scheme: 3: ", "no such kind"},
+    {kind_of_obstacle, "obstacles[0].kind: 2: ", "no such kind"},
+    {kind_of_obstacle_curve, "obstacles[0].curve.kind: 8: ", "no such kind"},
 };
 
 static void every_rule_names_its_key(void **state)

@@ -30,6 +30,12 @@ static inline void need(vsc_checker *c, bool fine, const char *key, double value
                key, value, unit[0] != '\0' ? " " : "", unit, remedy);
 }
 
+// Demands that `value` is one of an enumeration from 0 to `last`: callers in C can miss it.
+static inline void need_kind(vsc_checker *c, const char *key, int value, int last)
+{
+  need(c, value >= 0 && value <= last, key, value, "", "no such kind; take one that its header names");
+}
+
 static inline void need_positive(vsc_checker *c, const char *key, double value, const char *unit,
                           const char *remedy)
 {

@@ -405,8 +405,8 @@ vsc_definition vsc_default_definition(void);
 bool vsc_takes_elements(const vsc_definition *definition, size_t material);
 
 // Refuses numbers that mean nothing (negative moduli, no volume modulus, rest stretch outside
-// (0, 1], ...) with the key as the scene writes it (materials[0].axial ...), the value and the
-// remedy.
+// (0, 1], ...), and kinds that their enumeration does not have, with the key as the scene writes it
+// (materials[0].axial ...), the value and the remedy.
 vsc_status vsc_definition_check(const vsc_definition *definition, vsc_error *error);
 
 // Releases what the definition owns, not the struct itself.

@@ -298,9 +298,56 @@ static void check_kept(vsc_checker *c, const vsc_definition *d)
     c->status = vsc_fail(c->error, VSC_INPUT, "keep_volume: relaxation keeps no volume; take solver.method: newton");
 }
 
+static void check_selector_kinds(vsc_checker *c, const char *list, const vsc_selector *selectors, size_t count)
+{
+  for (size_t i = 0; i < count; i++) {
+    enter(c, list, i, "");
+    need_kind(c, "kind", (int)selectors[i].kind, VSC_SELECT_SURFACE);
+  }
+}
+
+static void check_curve_kind(vsc_checker *c, const vsc_curve_def *curve)
+{
+  need_kind(c, "curve.kind", (int)curve->kind, VSC_CURVE_BESTEL_PRESSURE);
+}
+
+// Every enumeration of a definition, before anything is chosen by one.
+static void check_kinds(vsc_checker *c, const vsc_definition *d)
+{
+  need_kind(c, "volume", (int)d->volume, VSC_VOLUME_ELEMENT);
+  need_kind(c, "tets", (int)d->tets, VSC_TETS_SMOOTHED);
+  need_kind(c, "keep_volume", (int)d->kept_volume, VSC_KEEP_ELEMENT);
+  need_kind(c, "masses", (int)d->masses, VSC_MASS_CONSISTENT);
+  need_kind(c, "solve", (int)d->solve.kind, VSC_SOLVE_IMPLICIT);
+  need_kind(c, "solver.method", (int)d->solve.method, VSC_STATICS_RELAXATION);
+  need_kind(c, "solver.linear", (int)d->solve.linear, VSC_LINEAR_ITERATIVE);
+  need_kind(c, "solver.scheme", (int)d->solve.scheme, VSC_SCHEME_BDF2);
+  check_selector_kinds(c, "surfaces", d->surfaces, d->surface_count);
+  check_selector_kinds(c, "node_sets", d->sets, d->set_count);
+  for (size_t i = 0; i < d->material_count; i++) {
+    const vsc_material_def *material = &d->materials[i];
+    enter(c, "materials", i, "");
+    need_kind(c, "law", (int)material->law, VSC_LAW_VERONDA_WESTMANN);
+    need_kind(c, "compression", (int)material->compression, VSC_FIBRES_SMOOTH);
+    enter(c, "materials", i, ".active");
+    need_kind(c, "kind", (int)material->active.kind, VSC_ACTIVE_TENSION);
+    check_curve_kind(c, &material->active.curve);
+  }
+  for (size_t i = 0; i < d->support_count; i++) enter(c, "supports", i, ""), check_curve_kind(c, &d->supports[i].curve);
+  for (size_t i = 0; i < d->pressure_count; i++) enter(c, "pressures", i, ""), check_curve_kind(c, &d->pressures[i].curve);
+  for (size_t i = 0; i < d->obstacle_count; i++) {
+    enter(c, "obstacles", i, "");
+    need_kind(c, "kind", (int)d->obstacles[i].kind, VSC_OBSTACLE_SPHERE);
+    check_curve_kind(c, &d->obstacles[i].curve);
+  }
+  c->where[0] = '\0';
+}
+
 vsc_status vsc_definition_check(const vsc_definition *d, vsc_error *error)
 {
   vsc_checker c = {.error = error, .status = VSC_OK};
+  check_kinds(&c, d);
+  if (c.status != VSC_OK) return c.status;
   need(&c, d->material_count > 0 || d->membrane_count > 0, "materials", 0, "given",
        "describe at least one material, or a membrane");
   for (size_t i = 0; i < d->material_count; i++) check_material(&c, i, &d->materials[i]);
