@@ -64,3 +64,28 @@ const vsc_edge *vsc_edges_find(const vsc_edges *edges, uint32_t a, uint32_t b)
   }
   return NULL;
 }
+
+vsc_status vsc_sides_list(const uint32_t *corners, size_t stride, size_t count, vsc_side **sides, vsc_error *error)
+{
+  vsc_side *made;
+  *sides = NULL;
+  if (!VSC_NEW(made, 3 * count)) return vsc_fail_memory(error, "the sides of triangles");
+  for (size_t t = 0; t < count; t++)
+    for (size_t i = 0; i < 3; i++) {
+      const uint32_t a = corners[stride * t + i], b = corners[stride * t + (i + 1) % 3];
+      made[3 * t + i] = (vsc_side){a < b ? a : b, a < b ? b : a, (uint32_t)t, (uint32_t)i, a < b};
+    }
+  if (!vsc_sort(made, 3 * count, sizeof *made / sizeof(uint32_t), 2)) {
+    vsc_free(made);
+    return vsc_fail_memory(error, "the sides of triangles");
+  }
+  *sides = made;
+  return VSC_OK;
+}
+
+size_t vsc_sides_end(const vsc_side *sides, size_t side_count, size_t first)
+{
+  size_t end = first + 1;
+  while (end < side_count && sides[end].low == sides[first].low && sides[end].high == sides[first].high) end++;
+  return end;
+}

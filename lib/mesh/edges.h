@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The edges of a mesh's elements, each once.
+// The edges of a mesh's elements, each once; the sides of triangles, edge by edge.
 #ifndef VSC_MESH_EDGES_H
 #define VSC_MESH_EDGES_H
 
@@ -25,5 +25,21 @@ void vsc_edges_free(vsc_edges *edges);  // frees the content
 
 // The edge between nodes a and b, in any order, or NULL.
 const vsc_edge *vsc_edges_find(const vsc_edges *edges, uint32_t a, uint32_t b);
+
+// A side of a triangle, from one of its corners to the next.
+typedef struct vsc_side {
+  uint32_t low, high;  // nodes at its ends, low <= high
+  uint32_t triangle;
+  uint32_t corner;     // 0, 1, 2: where it begins
+  uint32_t rising;     // 1: it runs from low to high
+} vsc_side;
+
+// Lists the sides of `count` triangles by low, then high, then triangle, so that those of one edge follow one another. The
+// corners of triangle t are corners[stride t] and the two behind. *sides (3 count) is owned by the caller (vsc_free), NULL
+// after a failure: VSC_SYSTEM when memory is short.
+vsc_status vsc_sides_list(const uint32_t *corners, size_t stride, size_t count, vsc_side **sides, vsc_error *error);
+
+// The place behind the sides of the edge whose first side is at `first` among `side_count`.
+size_t vsc_sides_end(const vsc_side *sides, size_t side_count, size_t first);
 
 #endif

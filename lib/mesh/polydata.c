@@ -7,6 +7,7 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
+#include "mesh/edges.h"
 
 vsc_polydata *vsc_polydata_create(size_t points, size_t triangles, size_t segments)
 {
@@ -82,38 +83,14 @@ vsc_status vsc_polydata_weld(const vsc_polydata *polydata, uint32_t *first, vsc_
   return VSC_OK;
 }
 
-// An edge from its lesser to its greater point.
-typedef struct edge {
-  uint32_t low, high;
-  int forward;  // 1: its triangle passes it from low to high
-} edge;
-
-static int by_points(const void *a, const void *b)
+static void count_edges(const vsc_side *sides, size_t count, vsc_closure *closure)
 {
-  const edge *p = a, *q = b;
-  if (p->low != q->low) return p->low < q->low ? -1 : 1;
-  return (p->high > q->high) - (p->high < q->high);
-}
-
-static void list_edges(const vsc_polydata *polydata, const uint32_t *first, edge *edges)
-{
-  for (size_t t = 0; t < polydata->triangle_count; t++)
-    for (size_t i = 0; i < 3; i++) {
-      const uint32_t a = first[polydata->triangles[3 * t + i]];
-      const uint32_t b = first[polydata->triangles[3 * t + (i + 1) % 3]];
-      edges[3 * t + i] = (edge){a < b ? a : b, a < b ? b : a, a < b};
-    }
-  qsort(edges, 3 * polydata->triangle_count, sizeof *edges, by_points);
-}
-
-static void count_edges(const edge *edges, size_t count, vsc_closure *closure)
-{
-  for (size_t e = 0, run; e < count; e += run) {
-    for (run = 1; e + run < count && by_points(&edges[e], &edges[e + run]) == 0;) run++;
-    if (edges[e].low == edges[e].high) continue;  // of a triangle that is a line
-    if (run != 2)
+  for (size_t first = 0, end; first < count; first = end) {
+    end = vsc_sides_end(sides, count, first);
+    if (sides[first].low == sides[first].high) continue;  // of a triangle that is a line
+    if (end - first != 2)
       closure->open_edges++;
-    else if (edges[e].forward == edges[e + 1].forward)
+    else if (sides[first].rising == sides[first + 1].rising)
       closure->turned_edges++;
   }
 }
@@ -135,19 +112,24 @@ static double enclosed(const vsc_polydata *polydata)
 vsc_status vsc_polydata_closure(const vsc_polydata *polydata, vsc_closure *closure,
                                 vsc_error *error)
 {
-  uint32_t *first;
-  edge *edges = NULL;
+  const size_t side_count = 3 * polydata->triangle_count;
+  uint32_t *first, *welded = NULL;
+  vsc_side *sides = NULL;
   vsc_status status = VSC_OK;
   *closure = (vsc_closure){0};
-  if (!VSC_NEW(first, polydata->point_count) || !VSC_NEW(edges, 3 * polydata->triangle_count))
+  if (!VSC_NEW(first, polydata->point_count) || !VSC_NEW(welded, side_count))
     status = vsc_fail_memory(error, "the edges of a surface");
   if (status == VSC_OK) status = vsc_polydata_weld(polydata, first, error);
   if (status == VSC_OK) {
-    list_edges(polydata, first, edges);
-    count_edges(edges, 3 * polydata->triangle_count, closure);
+    for (size_t k = 0; k < side_count; k++) welded[k] = first[polydata->triangles[k]];
+    status = vsc_sides_list(welded, 3, polydata->triangle_count, &sides, error);
+  }
+  if (status == VSC_OK) {
+    count_edges(sides, side_count, closure);
     closure->volume = enclosed(polydata);
   }
   vsc_free(first);
-  vsc_free(edges);
+  vsc_free(welded);
+  vsc_free(sides);
   return status;
 }

@@ -7,16 +7,10 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
+#include "mesh/edges.h"
 #include "mesh/face.h"
 
 enum { OFF_PATH = -1 };
-
-// A directed edge, kept as its ascending pair of nodes and the way it runs.
-typedef struct edge {
-  uint32_t low, high;
-  int32_t sense;    // +1 from low to high, -1 from high to low
-  uint32_t middle;  // the node in its middle, on quadratic meshes
-} edge;
 
 // An edge of the caps, against the surface's own.
 typedef struct rim_edge {
@@ -35,14 +29,6 @@ typedef struct tracer {
   size_t rims, used;  // how much of them is filled
 } tracer;
 
-static int compare_edges(const void *a, const void *b)
-{
-  const edge *x = a, *y = b;
-  if (x->low != y->low) return x->low < y->low ? -1 : 1;
-  if (x->high != y->high) return x->high < y->high ? -1 : 1;
-  return x->sense - y->sense;
-}
-
 static int compare_rim_edges(const void *a, const void *b)
 {
   const rim_edge *x = a, *y = b;
@@ -51,30 +37,19 @@ static int compare_rim_edges(const void *a, const void *b)
   return 0;
 }
 
-static void list_edges(const vsc_surface *surface, edge *edges)
+// Reverses the sides that are left when opposite ones cancel; returns how many there are.
+static size_t list_rim_edges(const vsc_surface *surface, const vsc_side *sides, rim_edge *rim)
 {
-  for (size_t t = 0; t < surface->count; t++)
-    for (int i = 0; i < 3; i++) {
-      const uint32_t a = surface->triangles[3 * t + i];
-      const uint32_t b = surface->triangles[3 * t + (i + 1) % 3];
-      const uint32_t middle = surface->mid != NULL ? surface->mid[3 * t + i] : 0;
-      edges[3 * t + i] = a < b ? (edge){a, b, 1, middle} : (edge){b, a, -1, middle};
-    }
-  qsort(edges, 3 * surface->count, sizeof *edges, compare_edges);
-}
-
-// Reverses the edges that are left when opposite ones cancel; returns how many there are.
-static size_t list_rim_edges(const edge *edges, size_t count, rim_edge *rim)
-{
+  const size_t count = 3 * surface->count;
   size_t found = 0;
-  for (size_t first = 0, last; first < count; first = last) {
+  for (size_t first = 0, end; first < count; first = end) {
+    const vsc_side *side = &sides[first];
+    const uint32_t middle = surface->mid != NULL ? surface->mid[3 * (size_t)side->triangle + side->corner] : 0;
     int64_t net = 0;
-    for (last = first; last < count && edges[last].low == edges[first].low &&
-                       edges[last].high == edges[first].high; last++)
-      net += edges[last].sense;
-    const uint32_t low = edges[first].low, high = edges[first].high, middle = edges[first].middle;
-    for (; net > 0; net--) rim[found++] = (rim_edge){high, low, middle};
-    for (; net < 0; net++) rim[found++] = (rim_edge){low, high, middle};
+    end = vsc_sides_end(sides, count, first);
+    for (size_t k = first; k < end; k++) net += sides[k].rising ? 1 : -1;
+    for (; net > 0; net--) rim[found++] = (rim_edge){side->high, side->low, middle};
+    for (; net < 0; net++) rim[found++] = (rim_edge){side->low, side->high, middle};
   }
   qsort(rim, found, sizeof *rim, compare_rim_edges);
   return found;
@@ -174,20 +149,18 @@ static void find_rim_middles(const rim_edge *edges, size_t count, vsc_cavity *ca
 
 static vsc_status find_rims(const vsc_surface *surface, vsc_cavity *cavity, vsc_error *error)
 {
-  edge *edges;
-  rim_edge *rim = NULL;
-  vsc_status status;
-  if (VSC_NEW(edges, 3 * surface->count) && VSC_NEW(rim, 3 * surface->count)) {
-    list_edges(surface, edges);
-    const size_t count = list_rim_edges(edges, 3 * surface->count, rim);
+  vsc_side *sides;
+  rim_edge *rim;
+  if (!VSC_NEW(rim, 3 * surface->count)) return vsc_fail_memory(error, "a cavity's edges");
+  vsc_status status = vsc_sides_list(surface->triangles, 3, surface->count, &sides, error);
+  if (status == VSC_OK) {
+    const size_t count = list_rim_edges(surface, sides, rim);
     status = trace_rims(rim, count, cavity, error);
     if (status == VSC_OK && surface->mid != NULL && !VSC_NEW(cavity->rim_mid, count))
       status = vsc_fail_memory(error, "a cavity's rims");
     if (status == VSC_OK && surface->mid != NULL) find_rim_middles(rim, count, cavity);
-  } else {
-    status = vsc_fail_memory(error, "a cavity's edges");
   }
-  vsc_free(edges);
+  vsc_free(sides);
   vsc_free(rim);
   return status;
 }

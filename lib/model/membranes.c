@@ -3,39 +3,22 @@
 
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/mem.h"
 #include "base/vec3.h"
-
-// An edge of a triangle, its lower node first.
-typedef struct edge {
-  uint32_t low, high;
-  uint32_t triangle;
-  int corner;  // it runs from this corner to the next
-} edge;
-
-static int compare_edges(const void *a, const void *b)
-{
-  const edge *x = a, *y = b;
-  if (x->low != y->low) return x->low < y->low ? -1 : 1;
-  if (x->high != y->high) return x->high < y->high ? -1 : 1;
-  return (x->triangle > y->triangle) - (x->triangle < y->triangle);
-}
+#include "mesh/edges.h"
 
 enum { NOBODY = UINT32_MAX };
 
 // The triangle across each edge of each triangle, or NOBODY.
-static void pair_edges(const edge *edges, size_t count, uint32_t (*neighbours)[3])
+static void pair_sides(const vsc_side *sides, size_t count, uint32_t (*neighbours)[3])
 {
-  for (size_t first = 0, last; first < count; first = last) {
-    for (last = first + 1; last < count && edges[last].low == edges[first].low &&
-                           edges[last].high == edges[first].high;)
-      last++;
-    for (size_t k = first; k < last; k++)
-      neighbours[edges[k].triangle][edges[k].corner] =
-          last - first == 2 ? edges[2 * first + 1 - k].triangle : NOBODY;
+  for (size_t first = 0, end; first < count; first = end) {
+    end = vsc_sides_end(sides, count, first);
+    for (size_t k = first; k < end; k++)
+      neighbours[sides[k].triangle][sides[k].corner] =
+          end - first == 2 ? sides[2 * first + 1 - k].triangle : NOBODY;
   }
 }
 
@@ -72,24 +55,16 @@ static void list_nodes(vsc_sheet *sheet, const uint32_t (*neighbours)[3], uint32
 
 static vsc_status find_neighbours(vsc_sheet *sheet, vsc_error *error)
 {
-  edge *edges;
-  uint32_t(*neighbours)[3] = NULL;
-  vsc_status status = VSC_OK;
-  const size_t count = 3 * sheet->count;
-  if (VSC_NEW(edges, count) && VSC_NEW(neighbours, sheet->count)) {
-    for (size_t k = 0; k < count; k++) {
-      const uint32_t *node = sheet->nodes[k / 3];
-      const uint32_t p = node[k % 3], q = node[(k + 1) % 3];
-      edges[k] = (edge){p < q ? p : q, p < q ? q : p, (uint32_t)(k / 3), (int)(k % 3)};
-    }
-    qsort(edges, count, sizeof *edges, compare_edges);
-    pair_edges(edges, count, neighbours);
+  vsc_side *sides;
+  uint32_t(*neighbours)[3];
+  if (!VSC_NEW(neighbours, sheet->count)) return vsc_fail_memory(error, "a membrane's edges");
+  const vsc_status status = vsc_sides_list(&sheet->nodes[0][0], VSC_BEND_NODES, sheet->count, &sides, error);
+  if (status == VSC_OK) {
+    pair_sides(sides, 3 * sheet->count, neighbours);
     for (uint32_t t = 0; t < sheet->count; t++)
       list_nodes(sheet, (const uint32_t(*)[3])neighbours, t);
-  } else {
-    status = vsc_fail_memory(error, "a membrane's edges");
   }
-  vsc_free(edges);
+  vsc_free(sides);
   vsc_free(neighbours);
   return status;
 }
