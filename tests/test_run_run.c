@@ -219,7 +219,7 @@ static void test_scene_as_understood(void **state)
   assert_same_files("again/signals.csv", "a/signals.csv");
 }
 
-// Two loads on one surface have two columns and two keys.
+// Two loads on one surface have two columns and two keys, none of them that of a surface with such a name.
 static void test_columns_of_one_surface(void **state)
 {
   (void)state;
@@ -231,6 +231,12 @@ static void test_columns_of_one_surface(void **state)
   assert_close(last_signal("pushed", "pressure_end_2"), 2, 1e-15, 0);
   load_text("pushed/summary.json", text, sizeof text);
   assert_holds(text, "\"pressure_end_2 [kPa]\": {");
+  must("$V run block.yaml -q -o pushed --set 'surfaces=[{name: end, node_array: x1, value: 1}, {name: end_2, boundary: true}]' "
+       "--set 'pressures=[{surface: end, peak: 1 kPa}, {surface: end, peak: 2 kPa}, {surface: end_2, peak: 0.5 kPa}]' "
+       "--set 'output.cavities=[end]' --set 'time.end=2 ms'");
+  load_text("pushed/signals.csv", text, sizeof text);
+  assert_holds(text, ",pressure_end [kPa],pressure_end_3 [kPa],pressure_end_2 [kPa],");
+  assert_close(last_signal("pushed", "pressure_end_2"), 0.5, 1e-15, 0);
 }
 
 static void assert_same_axis(const double *a, const double *b)

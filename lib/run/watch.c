@@ -21,12 +21,12 @@
 
 static bool is_taken(const vsc_watch *watch, size_t column)
 {
-  for (size_t k = 0; k < column; k++)
-    if (strcmp(watch->names[k], watch->names[column]) == 0) return true;
+  for (size_t k = 0; k < VSC_SIGNALS; k++)
+    if (k != column && strcmp(watch->names[k], watch->names[column]) == 0) return true;
   return false;
 }
 
-// One column of the row being made. With the first row it gets its name; numbered from 2 on where an earlier one has
+// One column of the row being made. With the first row it gets its name; numbered from 2 on where another one has
 // it, as that of a second load on the same surface.
 static void put(vsc_watch *watch, const char *unit, double value, const char *name,
                 const char *suffix)
@@ -144,6 +144,23 @@ static void put_points(const vsc_problem *problem, const vsc_state *state, vsc_w
   }
 }
 
+static bool is_first_on_surface(const vsc_model *model, size_t load)
+{
+  for (size_t p = 0; p < load; p++)
+    if (strcmp(model->pressures[p].surface, model->pressures[load].surface) == 0) return false;
+  return true;
+}
+
+// The first load on each surface has its column's name before any is numbered, so that pressure_NAME is the surface NAME's.
+static void put_pressures(const vsc_model *model, const vsc_state *state, vsc_watch *watch)
+{
+  for (size_t p = 0; p < model->pressure_count; p++)
+    if (is_first_on_surface(model, p))
+      snprintf(watch->names[watch->signal_count + p], VSC_SIGNAL_NAME, "pressure_%s [kPa]", model->pressures[p].surface);
+  for (size_t p = 0; p < model->pressure_count; p++)
+    put(watch, "kPa", vsc_model_pressure(model, p, state->time), "pressure_", model->pressures[p].surface);
+}
+
 static void make_row(const vsc_problem *problem, vsc_state *state, vsc_watch *watch)
 {
   static const char *const axis[3] = {"x", "y", "z"};
@@ -156,9 +173,7 @@ static void make_row(const vsc_problem *problem, vsc_state *state, vsc_watch *wa
     put(watch, "ml", ML * vsc_cavity_volume(&watch->cavities[c], state->x, 4), "cavity_",
         problem->scene->output.cavities[c]);
   put(watch, "ml", ML * t->volume, "wall_volume", "");
-  for (size_t p = 0; p < model->pressure_count; p++)
-    put(watch, "kPa", vsc_model_pressure(model, p, state->time), "pressure_",
-        model->pressures[p].surface);
+  put_pressures(model, state, watch);
   put(watch, "kPa", t->tension_mean, "active_tension_mean", "");
   put(watch, "kPa", t->tension_high, "active_tension_max", "");
   put(watch, "1", t->stretch_low, "stretch_f_min", "");
