@@ -101,6 +101,21 @@ static void test_refused_before_anything_is_touched(void **state)
   must("diff -r holed kept");
 }
 
+// Rows that are missed where somebody has deleted some, not where the file was removed; nothing is changed.
+static void test_deleted_rows(void **state)
+{
+  (void)state;
+  must("$V run block.yaml -q -o gap --stop '10 ms' && sed -i '5,6d' gap/signals.csv && "
+       "cp -r gap before");  // 3 and 4 ms
+  assert_int_equal(shell("$V run block.yaml -q -o gap --resume"), 2);
+  assert_int_equal(line_count(complained), 1);
+  assert_holds(complained, "gap/signals.csv: it has 9 of the 11 rows that were written up to 10 ms, and its widest gap is from "
+                           "2 to 5 ms; remove it");
+  must("diff -r gap before && rm gap/signals.csv");
+  must("$V run block.yaml -q -o gap --resume --stop '15 ms' && $V run block.yaml -q -o gap --resume");
+  must("test $(tail -n +2 gap/signals.csv | wc -l) = 10");  // from 11 ms on
+}
+
 // A file that takes no row is named.
 static void test_no_room_for_rows(void **state)
 {
@@ -117,6 +132,7 @@ int main(void)
       cmocka_unit_test(test_multipliers),
       cmocka_unit_test(test_iterations_are_trimmed),
       cmocka_unit_test(test_refused_before_anything_is_touched),
+      cmocka_unit_test(test_deleted_rows),
       cmocka_unit_test(test_no_room_for_rows),
   };
   return cmocka_run_group_tests(tests, block_open, program_close);

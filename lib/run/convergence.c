@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What Newton's method did, as DIRECTORY/convergence.csv: one row for each iteration.
 #include <errno.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -35,5 +34,5 @@ vsc_status vsc_job_trim_convergence(const vsc_job *job, vsc_error *error)
 {
   char path[VSC_PATH];
   vsc_job_path(job, "convergence.csv", path);
-  return vsc_watch_trim(path, job->state->time, HUGE_VAL, error);  // rows may lie any way apart
+  return vsc_watch_trim(path, job->state->time, error);
 }

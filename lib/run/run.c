@@ -151,7 +151,7 @@ static vsc_status resume(vsc_job *job, vsc_error *error)
   vsc_status status = vsc_watch_open(job->problem, "/dev/null", -1, &job->watch, error);
   if (status == VSC_OK) status = vsc_job_load(job, error);
   if (status == VSC_OK) vsc_watch_resume(job->problem, job->state, job->watch);
-  if (status == VSC_OK) status = vsc_watch_continues(job->watch, path, error);
+  if (status == VSC_OK) status = vsc_watch_continues(job->problem, job->state, job->watch, path, error);
   if (status == VSC_OK) status = read_series(job, error);
   if (status != VSC_OK) return status;
   vsc_watch_free(job->watch);

@@ -239,9 +239,9 @@ static vsc_status number_points(const vsc_problem *problem, vsc_watch *watch, vs
   return made ? VSC_OK : vsc_fail_memory(error, "observed points");
 }
 
-static vsc_status open_file(const char *file, double keep_until, double interval, vsc_watch *watch, vsc_error *error)
+static vsc_status open_file(const char *file, double keep_until, vsc_watch *watch, vsc_error *error)
 {
-  const vsc_status status = keep_until >= 0 ? vsc_watch_trim(file, keep_until, interval, error) : VSC_OK;
+  const vsc_status status = keep_until >= 0 ? vsc_watch_trim(file, keep_until, error) : VSC_OK;
   if (status != VSC_OK) return status;
   snprintf(watch->path, sizeof watch->path, "%s", file);
   watch->file = fopen(file, keep_until >= 0 ? "a" : "w");
@@ -281,7 +281,7 @@ vsc_status vsc_watch_open(const vsc_problem *problem, const char *file, double k
   vsc_status status = vsc_ledger_create(problem->model, &made->ledger, error);
   if (status == VSC_OK) status = make_cavities(problem, made, error);
   if (status == VSC_OK) status = number_points(problem, made, error);
-  if (status == VSC_OK) status = open_file(file, keep_until, problem->scene->output.signal_interval, made, error);
+  if (status == VSC_OK) status = open_file(file, keep_until, made, error);
   if (status != VSC_OK) {
     vsc_watch_free(made);
     return status;

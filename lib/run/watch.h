@@ -62,13 +62,15 @@ void vsc_watch_resume(const vsc_problem *problem, vsc_state *state, vsc_watch *w
 double vsc_watch_energy_made(const vsc_watch *watch);
 
 // Takes from the rows of `file`, left by the run that is resumed, those after `keep_until` (ms) and those that were cut
-// short; a file that is missing has none. VSC_INPUT when rows before `keep_until` are lost: when they end earlier by more
-// than they lie apart and than `interval` (ms).
-vsc_status vsc_watch_trim(const char *file, double keep_until, double interval, vsc_error *error);
+// short; a file that is missing has none.
+vsc_status vsc_watch_trim(const char *file, double keep_until, vsc_error *error);
 
 // Whether the rows of `file`, left by the run that is resumed, have the columns that vsc_watch_resume has named; a file
-// that is missing or empty has none yet. VSC_INPUT with a column that only one of the two has.
-vsc_status vsc_watch_continues(const vsc_watch *watch, const char *file, vsc_error *error);
+// that is missing or empty has none yet. VSC_INPUT with a column that only one of the two has, and when rows up to the
+// state's time are lost: when they end earlier by more than they lie apart and than output.signals, or when they begin
+// with the run's first row and are fewer than the checkpoint has counted; the last one may be missing.
+vsc_status vsc_watch_continues(const vsc_problem *problem, const vsc_state *state, const vsc_watch *watch, const char *file,
+                               vsc_error *error);
 
 void vsc_watch_free(vsc_watch *watch);  // NULL is fine
 

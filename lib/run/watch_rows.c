@@ -9,11 +9,6 @@
 
 #define SAME_TIME 1e-6  // ms, by which times of rows are rounded
 
-typedef struct kept_rows {
-  size_t columns, count;
-  double last, gap;  // time of the last row and its distance from the one before, ms
-} kept_rows;
-
 static size_t count_columns(const char *line)
 {
   size_t count = 1;
@@ -21,46 +16,36 @@ static size_t count_columns(const char *line)
   return count;
 }
 
-// Writes what stays of the rows.
-static kept_rows copy_rows(FILE *from, FILE *to, double keep_until)
+// Whether the row stays, a line of `length` in a file of so many columns: it was not cut short and is not after
+// `keep_until`. Its time is *time, ms.
+static bool is_kept(const char *line, ssize_t length, size_t columns, double keep_until, double *time)
 {
-  kept_rows kept = {0};
-  char *line = NULL;
-  size_t room = 0;
-  for (ssize_t length; (length = getline(&line, &room, from)) > 0;) {
-    const bool header = kept.columns == 0, whole = line[length - 1] == '\n';
-    if (header) kept.columns = count_columns(line);
-    const double time = 1e3 * strtod(line, NULL);
-    if (!header && (!whole || count_columns(line) != kept.columns || time > keep_until + SAME_TIME)) continue;
-    fputs(line, to);
-    if (header) continue;
-    kept.gap = kept.count++ > 0 ? time - kept.last : 0;
-    kept.last = time;
-  }
-  free(line);
-  return kept;
+  *time = 1e3 * strtod(line, NULL);
+  return line[length - 1] == '\n' && count_columns(line) == columns && !(*time > keep_until + SAME_TIME);
 }
 
-vsc_status vsc_watch_trim(const char *file, double keep_until, double interval, vsc_error *error)
+// Writes what stays of the rows.
+static void copy_rows(FILE *from, FILE *to, double keep_until)
+{
+  char *line = NULL;
+  size_t room = 0, columns = 0;
+  double time;
+  for (ssize_t length; (length = getline(&line, &room, from)) > 0;) {
+    if (columns == 0 || is_kept(line, length, columns, keep_until, &time)) fputs(line, to);
+    if (columns == 0) columns = count_columns(line);
+  }
+  free(line);
+}
+
+vsc_status vsc_watch_trim(const char *file, double keep_until, vsc_error *error)
 {
   vsc_replacement rows;
   FILE *from = fopen(file, "r");
   if (from == NULL) return VSC_OK;
-  vsc_status status = vsc_replace_begin(file, &rows, error);
-  if (status != VSC_OK) {
-    fclose(from);
-    return status;
-  }
-  const kept_rows kept = copy_rows(from, rows.stream, keep_until);
+  const vsc_status status = vsc_replace_begin(file, &rows, error);
+  if (status == VSC_OK) copy_rows(from, rows.stream, keep_until);
   fclose(from);
-  if (kept.columns > 0 && keep_until - kept.last > fmax(kept.gap, interval) + SAME_TIME) {
-    vsc_replace_cancel(&rows);
-    return vsc_fail(error, VSC_INPUT,
-                    "%s: its rows end at %.6g ms, but the checkpoint is of %.6g ms: those between are lost; remove it "
-                    "to go on without the rows before, or begin anew without --resume",
-                    file, kept.last, keep_until);
-  }
-  return vsc_replace_end(&rows, false, error);
+  return status == VSC_OK ? vsc_replace_end(&rows, false, error) : status;
 }
 
 // Compares the columns of `header`, which is cut into them.
@@ -89,15 +74,67 @@ static vsc_status compare_columns(const vsc_watch *watch, char *header, const ch
                   more ? "it has " : lacks ? "" : "another order", more ? more : "", more ? " besides" : "");
 }
 
-vsc_status vsc_watch_continues(const vsc_watch *watch, const char *file, vsc_error *error)
+typedef struct kept_rows {
+  size_t count;
+  double first, last;   // times, ms
+  double gap;           // between the last two, ms
+  double widest, from;  // between any two, and where that begins, ms
+} kept_rows;
+
+// The rows that stay, behind a header of so many columns.
+static kept_rows read_rows(FILE *stream, size_t columns, double keep_until)
+{
+  kept_rows kept = {0};
+  char *line = NULL;
+  size_t room = 0;
+  double time;
+  for (ssize_t length; (length = getline(&line, &room, stream)) > 0;) {
+    if (!is_kept(line, length, columns, keep_until, &time)) continue;
+    if (kept.count++ == 0) kept.first = kept.last = time;
+    kept.gap = time - kept.last;
+    if (kept.gap > kept.widest) kept.widest = kept.gap, kept.from = kept.last;
+    kept.last = time;
+  }
+  free(line);
+  return kept;
+}
+
+#define REMEDY "remove it to go on without the rows before, or begin anew without --resume"
+
+// Compares the rows with those that the run has counted, whose times reach from low to high of the first column. The last
+// may have been lost as the machine stopped; rows that begin later are of a file that was removed once.
+static vsc_status compare_rows(const vsc_watch *watch, const kept_rows *kept, double now, double interval,
+                               const char *file, vsc_error *error)
+{
+  if (now - kept->last > fmax(kept->gap, interval) + SAME_TIME)
+    return vsc_fail(error, VSC_INPUT,
+                    "%s: its rows end at %.6g ms, but the checkpoint is of %.6g ms: those between are lost; " REMEDY, file,
+                    kept->last, now);
+  const bool whole = fabs(kept->first - 1e3 * watch->low[0]) <= SAME_TIME;
+  const bool cut = kept->count == 0 || kept->last < 1e3 * watch->high[0] - SAME_TIME;
+  if (!whole || kept->count + cut >= (size_t)watch->rows) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT,
+                  "%s: it has %zu of the %.0f rows that were written up to %.6g ms, and its widest gap is from %.6g to %.6g ms; "
+                  REMEDY, file, kept->count, watch->rows, now, kept->from, kept->from + kept->widest);
+}
+
+vsc_status vsc_watch_continues(const vsc_problem *problem, const vsc_state *state, const vsc_watch *watch, const char *file,
+                               vsc_error *error)
 {
   char *header = NULL;
   size_t room = 0;
   FILE *stream = fopen(file, "r");
   if (stream == NULL) return VSC_OK;
-  const bool any = getline(&header, &room, stream) > 0;
+  vsc_status status = VSC_OK;
+  if (getline(&header, &room, stream) > 0) {
+    const size_t columns = count_columns(header);
+    status = compare_columns(watch, header, file, error);
+    if (status == VSC_OK) {
+      const kept_rows kept = read_rows(stream, columns, state->time);
+      status = compare_rows(watch, &kept, state->time, problem->scene->output.signal_interval, file, error);
+    }
+  }
   fclose(stream);
-  const vsc_status status = any ? compare_columns(watch, header, file, error) : VSC_OK;
   free(header);
   return status;
 }
