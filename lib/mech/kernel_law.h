@@ -35,12 +35,13 @@ VSC_INLINE void law_input_next(const vsc_patch_work *work, size_t k, vsc_law_inp
 }
 
 // The pressure that all frames of a cell share: U' of their mean volume ratio and what a multiplier
-// adds. The axes of all frames come back in g.
+// adds. The axes of all frames come back in g, their lengths where they are asked for.
 VSC_INLINE vsc_wide common_pressure(const vsc_patch_work *work, size_t k, const opened_pack *pack,
-                                    int points, const vsc_mixture *moduli, vsc_wide3 (*g)[3])
+                                    int points, const vsc_mixture *moduli, vsc_wide3 (*g)[3],
+                                    vsc_axis_lengths *lengths)
 {
   vsc_wide whole;
-  const vsc_wide J = mean_ratio(pack, points, pack->h, g, &whole);
+  const vsc_wide J = mean_ratio(pack, points, pack->h, g, lengths, &whole);
   return vsc_volume_stress(moduli->volume_modulus, J) + multiplier_of(work, k);
 }
 
@@ -71,9 +72,10 @@ VSC_INLINE void cell_kernel(const vsc_patch_work *work, int corners, int points,
   for (size_t k = 0; k < work->pack_count; k += PACKS) {
     opened_pack pack;
     vsc_wide3 f[VSC_MOST_CORNERS], g[VSC_MOST_POINTS][3];
+    vsc_axis_lengths lengths[VSC_MOST_POINTS];
     open_pack(work, k, corners, points, damping, &pack);
     law_input_next(work, k, &in);
-    const vsc_wide pressure = common_pressure(work, k, &pack, points, &in.moduli, g);
+    const vsc_wide pressure = common_pressure(work, k, &pack, points, &in.moduli, g, general ? NULL : lengths);
     for (int q = 0; q < points; q++) {
       const frame_numbers frame = frame_of(&pack.frames[q], pack.other);
       vsc_wide3 rate[3], P[3];
@@ -81,7 +83,7 @@ VSC_INLINE void cell_kernel(const vsc_patch_work *work, int corners, int points,
       if (general)
         law_frame(&in, g[q], damping ? rate : NULL, pressure, in.moduli.stabilization, P);
       else
-        solid_stress(work, k, &in.moduli, g[q], rate, damping, pressure, P);
+        solid_stress(work, k, &in.moduli, g[q], &lengths[q], rate, damping, pressure, P);
       solid_flux(&frame, P, pack.h[q]);
     }
     solid_back(work->rule, corners, points, pack.h, f);

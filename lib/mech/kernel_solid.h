@@ -176,15 +176,17 @@ VSC_INLINE void open_pack(const vsc_patch_work *work, size_t k, int corners, int
   if (damping) open_derivatives(work, pack, corners, points, work->w, pack->speed);
 }
 
-// J = sum_q V_q det G_q / sum_q V_q, 1 in an empty place. The axes of all frames come back in g, the
+// J = sum_q V_q det G_q / sum_q V_q, 1 in an empty place. The axes of all frames come back in g (and their
+// lengths where they are asked for: while the next frame is opened, nobody waits for their roots), the
 // volume (1 in an empty place) in *whole.
 VSC_INLINE vsc_wide mean_ratio(const opened_pack *pack, int points, const vsc_wide3 (*h)[3],
-                               vsc_wide3 (*g)[3], vsc_wide *whole)
+                               vsc_wide3 (*g)[3], vsc_axis_lengths *lengths, vsc_wide *whole)
 {
   vsc_wide volume = vsc_splat(0), rest = vsc_splat(0);
   for (int q = 0; q < points; q++) {
     const frame_numbers frame = frame_of(&pack->frames[q], pack->other);
     solid_axes(&frame, h[q], g[q]);
+    if (lengths != NULL) lengths[q] = vsc_lengths_of(g[q]);
     volume += frame.V * vsc_wide_dot(g[q][0], vsc_wide_cross(g[q][1], g[q][2]));
     rest += frame.V;
   }
@@ -204,11 +206,11 @@ VSC_INLINE vsc_wide nodes_pressure(const vsc_patch_work *work, const opened_pack
 
 // P_a of one frame: springs, damping, activity, further axes, and the volume's pressure.
 VSC_INLINE void solid_stress(const vsc_patch_work *work, size_t k, const vsc_mixture *moduli,
-                             const vsc_wide3 g[3], const vsc_wide3 rate[3], bool damping,
-                             vsc_wide pressure, vsc_wide3 P[3])
+                             const vsc_wide3 g[3], const vsc_axis_lengths *lengths, const vsc_wide3 rate[3],
+                             bool damping, vsc_wide pressure, vsc_wide3 P[3])
 {
   const vsc_material *material = work->material;
-  const vsc_frame_axes axes = vsc_frame_of(g);
+  const vsc_frame_axes axes = vsc_frame_of_lengths(g, lengths);
   vsc_wide along[3] = {vsc_splat(0), vsc_splat(0), vsc_splat(0)};
   for (int a = 0; damping && a < 3; a++)
     along[a] = moduli->damping[a] * vsc_wide_dot(rate[a], axes.u[a]);

@@ -183,7 +183,7 @@ VSC_INLINE shared_volume share_volume(const vsc_patch_work *work, const opened_p
                                       int corners, int points, vsc_wide modulus, vsc_wide3 (*g)[3])
 {
   vsc_wide whole;
-  const vsc_wide J = mean_ratio(pack, points, pack->h, g, &whole);
+  const vsc_wide J = mean_ratio(pack, points, pack->h, g, NULL, &whole);
   if (corners == 4) return (shared_volume){nodes_pressure(work, pack), vsc_splat(0)};
   return (shared_volume){vsc_volume_stress(modulus, J), vsc_volume_curvature(modulus, J) / whole};
 }
@@ -196,7 +196,7 @@ VSC_INLINE vsc_wide foretell_pressure(const vsc_patch_work *work, const opened_p
   vsc_wide3 h[VSC_MOST_POINTS][3];
   vsc_wide change = vsc_splat(0), whole;
   open_derivatives(work, pack, corners, points, work->before, h);
-  const vsc_wide J = mean_ratio(pack, points, h, former, &whole);
+  const vsc_wide J = mean_ratio(pack, points, h, former, NULL, &whole);
   for (int q = 0; q < points; q++) {
     vsc_wide step;
     foretell_ratio(former[q], g[q], &step);

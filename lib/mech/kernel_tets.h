@@ -75,13 +75,13 @@ VSC_INLINE vsc_wide mean_pressure(const vsc_pack *pack, size_t other, const doub
 // A pack (and the one behind it) deformed: what roots and divisions are taken of.
 typedef struct pack_shape {
   vsc_wide3 g[3], cofactor[3];
-  vsc_wide length[3], inverse[3];  // n_a, 1/n_a
-  vsc_wide pressure;               // U'(J) of the tet itself
+  vsc_axis_lengths lengths;
+  vsc_wide pressure;  // U'(J) of the tet itself
 } pack_shape;
 
 VSC_INLINE void measure_shape(const vsc_patch_work *work, size_t k, bool composed, pack_shape *shape)
 {
-  vsc_frame_lengths(shape->g, shape->length, shape->inverse);
+  shape->lengths = vsc_lengths_of(shape->g);
   const vsc_wide J = cofactor_of(shape->g, shape->cofactor);
   shape->pressure = vsc_volume_stress(moduli_of(work, k, composed).element_modulus, J);
 }
@@ -93,12 +93,7 @@ VSC_INLINE void pack_stress(const vsc_patch_work *work, size_t k, const pack_sha
 {
   const vsc_pack *pack = (const vsc_pack *)work->packs + k;
   const vsc_mixture moduli = moduli_of(work, k, composed);
-  vsc_frame_axes frame;
-  for (int a = 0; a < 3; a++) {
-    frame.length[a] = shape->length[a];
-    frame.inverse[a] = shape->inverse[a];
-    frame.u[a] = vsc_wide_scale(frame.inverse[a], shape->g[a]);
-  }
+  const vsc_frame_axes frame = vsc_frame_of_lengths(shape->g, &shape->lengths);
   vsc_wide along[3] = {vsc_splat(0), vsc_splat(0), vsc_splat(0)};
   // eta_a dg_a/dt . u_a
   for (int a = 0; damping && a < 3; a++)

@@ -19,6 +19,12 @@
 // An axis shorter than this has no direction: it is left out until it is longer.
 #define VSC_SHORTEST_AXIS 1e-6
 
+// Lengths of three axes.
+typedef struct vsc_axis_lengths {
+  vsc_wide length[3];   // n_a
+  vsc_wide inverse[3];  // 1/n_a (0 for an axis without direction)
+} vsc_axis_lengths;
+
 // Directions and lengths of three axes.
 typedef struct vsc_frame_axes {
   vsc_wide3 u[3];       // unit vectors (0 for an axis without direction)
@@ -26,27 +32,38 @@ typedef struct vsc_frame_axes {
   vsc_wide inverse[3];  // 1/n_a (0 likewise)
 } vsc_frame_axes;
 
-// n_a and 1/n_a (0 for an axis without direction).
-VSC_INLINE void vsc_frame_lengths(const vsc_wide3 g[3], vsc_wide length[3], vsc_wide inverse[3])
+VSC_INLINE vsc_axis_lengths vsc_lengths_of(const vsc_wide3 g[3])
 {
+  vsc_axis_lengths lengths;
   vsc_wide safe[3];
   for (int a = 0; a < 3; a++) {
-    length[a] = vsc_wide_sqrt(vsc_wide_dot(g[a], g[a]));
+    lengths.length[a] = vsc_wide_sqrt(vsc_wide_dot(g[a], g[a]));
     const vsc_wide shortest = vsc_splat(VSC_SHORTEST_AXIS);
-    safe[a] = vsc_select(length[a] > shortest, length[a], shortest);
+    safe[a] = vsc_select(lengths.length[a] > shortest, lengths.length[a], shortest);
   }
   // one division for the three inverses
   const vsc_wide product = 1.0 / (safe[0] * safe[1] * safe[2]);
   for (int a = 0; a < 3; a++)
-    inverse[a] = vsc_where(length[a] > VSC_SHORTEST_AXIS, product * safe[(a + 1) % 3] * safe[(a + 2) % 3]);
+    lengths.inverse[a] = vsc_where(lengths.length[a] > VSC_SHORTEST_AXIS,
+                                   product * safe[(a + 1) % 3] * safe[(a + 2) % 3]);
+  return lengths;
+}
+
+VSC_INLINE vsc_frame_axes vsc_frame_of_lengths(const vsc_wide3 g[3], const vsc_axis_lengths *lengths)
+{
+  vsc_frame_axes frame;
+  for (int a = 0; a < 3; a++) {
+    frame.length[a] = lengths->length[a];
+    frame.inverse[a] = lengths->inverse[a];
+    frame.u[a] = vsc_wide_scale(frame.inverse[a], g[a]);
+  }
+  return frame;
 }
 
 VSC_INLINE vsc_frame_axes vsc_frame_of(const vsc_wide3 g[3])
 {
-  vsc_frame_axes frame;
-  vsc_frame_lengths(g, frame.length, frame.inverse);
-  for (int a = 0; a < 3; a++) frame.u[a] = vsc_wide_scale(frame.inverse[a], g[a]);
-  return frame;
+  const vsc_axis_lengths lengths = vsc_lengths_of(g);
+  return vsc_frame_of_lengths(g, &lengths);
 }
 
 // Moduli of four frames: E_f, E_s, E_n; G_fs, G_sn, G_nf (kPa); r_f (1).
