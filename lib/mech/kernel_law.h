@@ -45,9 +45,8 @@ VSC_INLINE vsc_wide common_pressure(const vsc_patch_work *work, size_t k, const 
   return vsc_volume_stress(moduli->volume_modulus, J) + multiplier_of(work, k);
 }
 
-// P_a of one frame: the law, viscosity, and the volume's pressure p cof_a.
-VSC_INLINE void law_frame(const vsc_law_input *in, const vsc_wide3 g[3], const vsc_wide3 *rate,
-                          vsc_wide pressure, vsc_wide own_modulus, vsc_wide3 P[3])
+// P_a of one frame: the law and viscosity.
+VSC_INLINE void law_frame(const vsc_law_input *in, const vsc_wide3 g[3], const vsc_wide3 *rate, vsc_wide3 P[3])
 {
   vsc_wide e[6], S[6], speed[6];
   vsc_strain_of(g, e);
@@ -57,11 +56,12 @@ VSC_INLINE void law_frame(const vsc_law_input *in, const vsc_wide3 g[3], const v
     vsc_law_add_viscous_stress(in->material, &in->moduli, in->axes, e, speed, S);
   }
   vsc_stress_on_axes(S, g, P);
-  vsc_wide3 cofactor[3];
-  const vsc_wide J = cofactor_of(g, cofactor);
-  add_pressure(pressure + vsc_volume_stress(own_modulus, J) +
-                   vsc_rest_stress(vsc_splat(in->material->rest_shear), J),
-               cofactor, P);
+}
+
+// The pressure of a frame's own volume ratio: U' of a modulus, and what keeps the law free of stress at rest.
+VSC_INLINE vsc_wide law_pressure(const vsc_material *material, vsc_wide modulus, vsc_wide J)
+{
+  return vsc_volume_stress(modulus, J) + vsc_rest_stress(vsc_splat(material->rest_shear), J);
 }
 
 // `general`: any law of strain; else law SPRINGS with none of its further features.
@@ -78,12 +78,16 @@ VSC_INLINE void cell_kernel(const vsc_patch_work *work, int corners, int points,
     const vsc_wide pressure = common_pressure(work, k, &pack, points, &in.moduli, g, general ? NULL : lengths);
     for (int q = 0; q < points; q++) {
       const frame_numbers frame = frame_of(&pack.frames[q], pack.other);
-      vsc_wide3 rate[3], P[3];
+      vsc_wide3 rate[3], P[3], cofactor[3];
       if (damping) solid_axes(&frame, pack.speed[q], rate);
+      const vsc_wide J = cofactor_of(g[q], cofactor);
       if (general)
-        law_frame(&in, g[q], damping ? rate : NULL, pressure, in.moduli.stabilization, P);
+        law_frame(&in, g[q], damping ? rate : NULL, P);
       else
-        solid_stress(work, k, &in.moduli, g[q], &lengths[q], rate, damping, pressure, P);
+        solid_stress(work, k, &in.moduli, g[q], &lengths[q], rate, damping, P);
+      const vsc_wide own = general ? law_pressure(in.material, in.moduli.stabilization, J)
+                                   : vsc_volume_stress(in.moduli.stabilization, J);
+      add_pressure(pressure + own, cofactor, P);
       solid_flux(&frame, P, pack.h[q]);
     }
     solid_back(work->rule, corners, points, pack.h, f);

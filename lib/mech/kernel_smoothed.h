@@ -105,10 +105,12 @@ static void edge_stress_kernel(const vsc_edge_work *work)
   for (size_t k = 0; k < work->pack_count; k++) {
     const vsc_wide(*axes)[3] = work->frames[k].axes;
     const vsc_law_input in = edge_law(work, k);
-    vsc_wide3 g[3], rate[3], P[3];
+    vsc_wide3 g[3], rate[3], P[3], cofactor[3];
     vsc_edge_axes(work, k, work->gradient, g);
     if (work->rate != NULL) vsc_edge_axes(work, k, work->rate, rate);
-    law_frame(&in, g, work->rate != NULL ? rate : NULL, vsc_splat(0), vsc_splat(0), P);
+    law_frame(&in, g, work->rate != NULL ? rate : NULL, P);
+    const vsc_wide J = cofactor_of(g, cofactor);
+    add_pressure(law_pressure(in.material, vsc_splat(0), J), cofactor, P);
     // P_e = sum_a P_a (x) a
     for (int c = 0; c < 3; c++)
       store_column(vsc_wide_combine(axes[0][c], P[0], axes[1][c], P[1], axes[2][c], P[2]), c,

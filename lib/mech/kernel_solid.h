@@ -204,10 +204,10 @@ VSC_INLINE vsc_wide nodes_pressure(const vsc_patch_work *work, const opened_pack
   return pressure;
 }
 
-// P_a of one frame: springs, damping, activity, further axes, and the volume's pressure.
+// P_a of one frame: springs, damping, activity, further axes.
 VSC_INLINE void solid_stress(const vsc_patch_work *work, size_t k, const vsc_mixture *moduli,
                              const vsc_wide3 g[3], const vsc_axis_lengths *lengths, const vsc_wide3 rate[3],
-                             bool damping, vsc_wide pressure, vsc_wide3 P[3])
+                             bool damping, vsc_wide3 P[3])
 {
   const vsc_material *material = work->material;
   const vsc_frame_axes axes = vsc_frame_of_lengths(g, lengths);
@@ -220,9 +220,6 @@ VSC_INLINE void solid_stress(const vsc_patch_work *work, size_t k, const vsc_mix
     along[0] += moduli->share * activation * material->tension * axes.length[0];
   vsc_springs_stress(&law, &axes, along, P);
   add_more_axes(work, moduli->share, g, rate, damping, P);
-  vsc_wide3 cofactor[3];
-  const vsc_wide J = cofactor_of(g, cofactor);
-  add_pressure(pressure + vsc_volume_stress(moduli->stabilization, J), cofactor, P);
 }
 
 #endif

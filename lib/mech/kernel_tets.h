@@ -76,14 +76,23 @@ VSC_INLINE vsc_wide mean_pressure(const vsc_pack *pack, size_t other, const doub
 typedef struct pack_shape {
   vsc_wide3 g[3], cofactor[3];
   vsc_axis_lengths lengths;
-  vsc_wide pressure;  // U'(J) of the tet itself
+  vsc_wide pressure;  // of the tet itself, by its J
 } pack_shape;
 
-VSC_INLINE void measure_shape(const vsc_patch_work *work, size_t k, bool composed, pack_shape *shape)
+VSC_INLINE void measure_shape(const vsc_patch_work *work, size_t k, bool general, bool composed, pack_shape *shape)
 {
-  shape->lengths = vsc_lengths_of(shape->g);
+  const vsc_wide modulus = moduli_of(work, k, composed).element_modulus;
+  if (!general) shape->lengths = vsc_lengths_of(shape->g);
   const vsc_wide J = cofactor_of(shape->g, shape->cofactor);
-  shape->pressure = vsc_volume_stress(moduli_of(work, k, composed).element_modulus, J);
+  shape->pressure = general ? law_pressure(work->material, modulus, J) : vsc_volume_stress(modulus, J);
+}
+
+// The pressure of pack k (and the one behind it) and, where they share their volume, of its nodes.
+VSC_INLINE void add_volume(const vsc_patch_work *work, size_t k, bool nodal, const pack_shape *shape, vsc_wide3 P[3])
+{
+  vsc_wide p = shape->pressure;
+  if (nodal) p += mean_pressure((const vsc_pack *)work->packs + k, other_pack(work, k), work->pressure);
+  add_pressure(p, shape->cofactor, P);
 }
 
 // P_a of pack k (and the one behind it) from its shape and the rates of its axes.
@@ -91,7 +100,6 @@ VSC_INLINE void pack_stress(const vsc_patch_work *work, size_t k, const pack_sha
                             const vsc_wide3 rate[3], bool composed, bool damping,
                             vsc_active_kind active, bool nodal, vsc_wide3 P[3])
 {
-  const vsc_pack *pack = (const vsc_pack *)work->packs + k;
   const vsc_mixture moduli = moduli_of(work, k, composed);
   const vsc_frame_axes frame = vsc_frame_of_lengths(shape->g, &shape->lengths);
   vsc_wide along[3] = {vsc_splat(0), vsc_splat(0), vsc_splat(0)};
@@ -106,9 +114,7 @@ VSC_INLINE void pack_stress(const vsc_patch_work *work, size_t k, const pack_sha
     along[0] += moduli.share * activation * work->material->tension * frame.length[0];
   vsc_springs_stress(&law, &frame, along, P);
   if (composed) add_more_axes(work, moduli.share, shape->g, rate, damping, P);
-  vsc_wide p = shape->pressure;
-  if (nodal) p += mean_pressure(pack, other_pack(work, k), work->pressure);
-  add_pressure(p, shape->cofactor, P);
+  add_volume(work, k, nodal, shape, P);
 }
 
 VSC_INLINE void gather_axes(const vsc_patch_work *work, size_t k, const double *nodes, vsc_wide3 g[3])
@@ -120,14 +126,12 @@ VSC_INLINE void gather_axes(const vsc_patch_work *work, size_t k, const double *
 }
 
 // The same under any law of strain, of which `in` is what the pack before had.
-VSC_INLINE void pack_law_stress(const vsc_patch_work *work, size_t k, const vsc_wide3 g[3],
+VSC_INLINE void pack_law_stress(const vsc_patch_work *work, size_t k, const pack_shape *shape,
                                 const vsc_wide3 rate[3], bool damping, vsc_law_input *in, vsc_wide3 P[3])
 {
-  const vsc_pack *pack = (const vsc_pack *)work->packs + k;
-  vsc_wide pressure = vsc_splat(0);
   law_input_next(work, k, in);
-  if (work->shares_volume) pressure = mean_pressure(pack, other_pack(work, k), work->pressure);
-  law_frame(in, g, damping ? rate : NULL, pressure, in->moduli.element_modulus, P);
+  law_frame(in, shape->g, damping ? rate : NULL, P);
+  add_volume(work, k, work->shares_volume, shape, P);
 }
 
 // `general`: any law of strain; else law SPRINGS with what follows.
@@ -144,13 +148,13 @@ VSC_INLINE void force_kernel(const vsc_patch_work *work, bool general, bool comp
     const size_t count = left < TOGETHER ? left : TOGETHER;
     for (size_t t = 0; t < count; t++) {
       gather_axes(work, first + PACKS * t, work->x, shape[t].g);
-      if (!general) measure_shape(work, first + PACKS * t, composed, &shape[t]);
+      measure_shape(work, first + PACKS * t, general, composed, &shape[t]);
     }
     for (size_t t = 0; damping && t < count; t++) gather_axes(work, first + PACKS * t, work->w, rate[t]);
     for (size_t t = 0; t < count; t++) {
       fetch_packs(&packs[first + PACKS * (t + TOGETHER)]);
       if (general)
-        pack_law_stress(work, first + PACKS * t, shape[t].g, rate[t], damping, &in, P[t]);
+        pack_law_stress(work, first + PACKS * t, &shape[t], rate[t], damping, &in, P[t]);
       else
         pack_stress(work, first + PACKS * t, &shape[t], rate[t], composed, damping, active, nodal, P[t]);
     }
