@@ -72,6 +72,22 @@ static void test_steps_grow_again(void **state)
   assert_close(number("calm", "steps_this_run") * last_signal("calm", "step [ms]"), 1, 0.05, 0);
 }
 
+// Implicit steps of 4 ms are cut to 2 ms by rows that lie 2 ms apart, and to 1.5 ms by rows 3 ms apart.
+static void test_steps_that_rows_cut(void **state)
+{
+  (void)state;
+  static const char implicit[] = "$V run jerk.yaml -q --set solve=implicit --set 'time={end: 12 ms, step: %s}' "
+                                 "--set 'output={frames: 12 ms, signals: %s}' -o cut";
+  static const char *const given[3][2] = {{"4 ms", "2 ms"}, {"2 ms", "3 ms"}, {"2 ms", "4 ms"}};
+  static const double taken[3] = {2, 1.5, 2};
+  for (int k = 0; k < 3; k++) {
+    char line[256];
+    snprintf(line, sizeof line, implicit, given[k][0], given[k][1]);
+    must(line);
+    assert_close(last_signal("cut", "step [ms]"), taken[k], 1e-9, 0);
+  }
+}
+
 // Going back does not forget what the row before has marked: the mean force since then, times the support's way, is
 // its work since then.
 static void test_rows_before_a_repetition_count(void **state)
@@ -236,6 +252,7 @@ int main(void)
       cmocka_unit_test(test_repeated_with_shorter_steps),
       cmocka_unit_test(test_repeated_without_a_message),
       cmocka_unit_test(test_steps_grow_again),
+      cmocka_unit_test(test_steps_that_rows_cut),
       cmocka_unit_test(test_rows_before_a_repetition_count),
       cmocka_unit_test(test_energy_made_by_implicit_steps),
       cmocka_unit_test(test_interrupted),

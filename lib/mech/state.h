@@ -82,6 +82,7 @@ typedef struct vsc_moved_sums {
 typedef struct vsc_state {
   double time;    // ms
   double steps;   // done so far (an integer)
+  double part;    // of implicit steps of a given length the last one, ms: they are cut to end at frames and rows; 0 before
   bool loaded;    // the loads are borne at the start already: a first equilibrium does not let them come up
   double *x;      // node_count x 4: position, mm; owned
   double *v;      // node_count x 4: velocity, mm/ms; owned

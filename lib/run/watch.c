@@ -168,7 +168,7 @@ static void make_row(const vsc_problem *problem, vsc_state *state, vsc_watch *wa
   const vsc_totals *t = &watch->totals;
   watch->signal_count = 0;
   put(watch, "s", 1e-3 * state->time, "time", "");
-  put(watch, "ms", model->step > 0 ? model->step : state->limit.step, "step", "");
+  put(watch, "ms", state->part > 0 ? state->part : model->step > 0 ? model->step : state->limit.step, "step", "");
   for (size_t c = 0; c < watch->cavity_count; c++)
     put(watch, "ml", ML * vsc_cavity_volume(&watch->cavities[c], state->x, 4), "cavity_",
         problem->scene->output.cavities[c]);

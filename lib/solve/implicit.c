@@ -340,6 +340,7 @@ vsc_status vsc_implicit_to(const vsc_model *model, vsc_state *state, double unti
     state->limit.step = allowed;
     if (!done) continue;
     state->steps++;
+    if (model->step > 0) state->part = dt;
     state->time = parts == 1 ? until : state->time + dt;
     if (model->solve.scheme != VSC_SCHEME_BDF2) vsc_moving_end_rates(model, state, dt);
     reckon_supports(model, state, dt);
