@@ -5,6 +5,7 @@
 
 #include "tools/bench/closed_forms.h"
 #include "tools/bench/curves.h"
+#include "tools/bench/measures.h"
 #include "tools/bench/problem.h"
 #include "tools/bench/report.h"
 
@@ -71,6 +72,22 @@ static void powers_are_found(void **state)
   assert_true(isnan(vsc_curve_frequency(5, times, wave)));
 }
 
+// Tones of 0.7 and 3.1, the second a twentieth as strong, each among frequencies about it; none where there is only a slope.
+static void tones_are_found(void **state)
+{
+  (void)state;
+  static double times[1001], wave[1001];
+  for (int k = 0; k <= 1000; k++) {
+    times[k] = 0.01 * k;
+    wave[k] = 5 + sin(2 * M_PI * 0.7 * times[k] + 0.4) + 0.05 * sin(2 * M_PI * 3.1 * times[k]);
+  }
+  // 7 and 31 turns: what the window lets through of the other moves them by less than a thousandth of a turn in all
+  assert_close(vsc_curve_tone(1001, times, wave, 0.4, 1), 0.7, 1e-3, 0);
+  assert_close(vsc_curve_tone(1001, times, wave, 2, 4.5), 3.1, 1e-3, 0);
+  assert_true(isnan(vsc_curve_tone(1001, times, wave, 0.75, 0.85)));
+  assert_true(isnan(vsc_curve_tone(3, times, wave, 1, 2)));
+}
+
 // The values are printed to six digits.
 static void closed_forms_have_their_printed_values(void **state)
 {
@@ -130,6 +147,67 @@ static void targets_are_judged(void **state)
   assert_int_equal(vsc_bench_judge(&row), VSC_BENCH_MISSED);
 }
 
+static void coarse_meshes_are_not_judged(void **state)
+{
+  (void)state;
+  const vsc_bench_quantity q = {.name = "q", .percent = 1, .from = 400, .upto = 900};
+  vsc_bench_row row = {.quantity = &q, .value = 90, .reference = 100, .elements = 399};
+  row.of.kind = &vsc_bench_kinds[0];
+  assert_int_equal(vsc_bench_judge(&row), VSC_BENCH_UNJUDGED);
+  row.elements = 400;
+  assert_int_equal(vsc_bench_judge(&row), VSC_BENCH_MISSED);
+  row.elements = 900;
+  assert_int_equal(vsc_bench_judge(&row), VSC_BENCH_MISSED);
+  row.elements = 901;
+  assert_int_equal(vsc_bench_judge(&row), VSC_BENCH_UNJUDGED);
+  // one that fails is a miss on any mesh
+  snprintf(row.failure, sizeof row.failure, "came apart");
+  assert_int_equal(vsc_bench_judge(&row), VSC_BENCH_MISSED);
+}
+
+// Steps of 4, 2 and 1 with values 5 + h^2, then 5 + h: the third has an order, which is judged.
+static void orders_are_judged(void **state)
+{
+  (void)state;
+  static const vsc_bench_variant steps[] = {{.name = "4", .parameter = 4}, {.name = "2", .parameter = 2}, {.name = "1", .parameter = 1}};
+  static const vsc_bench_problem problem = {.name = "p", .variants = steps, .variant_count = 3};
+  const vsc_bench_quantity q = {.name = "q", .reference = NAN, .order = {1.8, 2.2}};
+  for (int power = 1; power <= 2; power++) {
+    vsc_bench_report report = {0};
+    for (int k = 0; k < 3; k++) {
+      vsc_bench_row row = {.quantity = &q, .value = 5 + pow(steps[k].parameter, power), .reference = NAN};
+      row.of = (vsc_bench_case){.problem = &problem, .variant = &steps[k], .kind = &vsc_bench_kinds[0]};
+      assert_true(vsc_bench_keep(&report, &row));
+    }
+    assert_true(isnan(report.rows[1].order));
+    assert_int_equal(vsc_bench_judge(&report.rows[1]), VSC_BENCH_UNJUDGED);
+    assert_close(report.rows[2].order, power, 1e-12, 0);
+    assert_int_equal(vsc_bench_judge(&report.rows[2]), power == 2 ? VSC_BENCH_MET : VSC_BENCH_MISSED);
+    vsc_bench_report_free(&report);
+  }
+}
+
+// Steps whose order is to be seen come in threes, each half of the one before, and none is cut by the rows, 2 ms apart.
+static void steps_of_the_beat_halve(void **state)
+{
+  (void)state;
+  for (size_t p = 0; p < vsc_bench_problem_count; p++) {
+    const vsc_bench_problem *problem = vsc_bench_problems[p];
+    if (strcmp(problem->name, "beat") != 0) continue;
+    size_t triples = 0;
+    for (size_t v = 0; v + 2 < problem->variant_count; v++) {
+      const vsc_bench_variant *steps = problem->variants + v;
+      assert_true(steps[2].parameter <= 2);
+      triples += steps[0].parameter > 0 && steps[0].parameter == 2 * steps[1].parameter &&
+                 steps[1].parameter == 2 * steps[2].parameter;
+    }
+    assert_int_equal(triples, 2);
+    for (size_t k = 0; k < problem->quantity_count; k++) assert_true(problem->quantities[k].order[1] > 0);
+    return;
+  }
+  fail();
+}
+
 #define SCENES " --no-pictures --scenes " VSC_SOURCE_DIR "/data/benchmarks "
 
 static void a_case_from_mesh_to_report(void **state)
@@ -150,6 +228,90 @@ static void a_case_from_mesh_to_report(void **state)
   assert_holds(text, "<td>beam-0.3-quadratic-1</td><td>400</td>");
   assert_true(load_text("out/meshes/beam-0.3-quadratic-1.vtu", text, sizeof text) > 0);
   assert_true(load_text("out/runs/beam-0.3-quadratic-1/summary.json", text, sizeof text) > 0);
+}
+
+// The end of a beam of 80 and 640 bricks, not judged: the order is told with the second, in text, table and page.
+static void orders_are_told(void **state)
+{
+  (void)state;
+  static char text[PROGRAM_TEXT];
+  must("$V bench accuracy --only 'beam-0.3-hexes-?' -o orders" SCENES);
+  load_text("orders/accuracy.csv", text, sizeof text);
+  double e[2], order = NAN;
+  for (int k = 0; k < 2; k++) {
+    const char *row = strstr(text, k == 0 ? "beam-0.3-hexes-1," : "beam-0.3-hexes-2,"), *value;
+    assert_non_null(row);
+    value = strstr(row, "\"end sinks\",mm,");
+    assert_non_null(value);
+    double here, there;
+    assert_int_equal(sscanf(value, "\"end sinks\",mm,%lf,%lf,%lf", &here, &there, &order), 3);
+    e[k] = fabs(here - there);
+    if (k == 0) assert_true(isnan(order));
+  }
+  // 80 and 640 are halves of the size; printed to four digits
+  assert_close(order, log2(e[0] / e[1]), 1e-3, 0);
+  char words[32];
+  snprintf(words, sizeof words, " %.2f        - ", order);
+  assert_holds(said, words);
+  load_text("orders/index.html", text, sizeof text);
+  snprintf(words, sizeof words, "<td>%.2f</td></tr>", order);
+  assert_holds(text, words);
+}
+
+static size_t times_in(const char *text, const char *word)
+{
+  size_t count = 0;
+  for (; (text = strstr(text, word)) != NULL; text++) count++;
+  return count;
+}
+
+static void put_page(const vsc_bench_report *report, char *text, size_t size)
+{
+  char page[512];
+  vsc_error error;
+  snprintf(page, sizeof page, "%s", in_folder("."));
+  assert_int_equal(vsc_bench_write_page(report, page, page, &error), VSC_OK);
+  load_text("index.html", text, size);
+}
+
+// A case in the middle of a band from 0 to 4: its line is in the middle of the axis, between LEFT and the legend.
+static void histories_are_drawn(void **state)
+{
+  (void)state;
+  static char text[PROGRAM_TEXT];
+  static const vsc_bench_quantity q = {.name = "distance", .measure = vsc_measure_history, .column = "point_p_u",
+                                       .file = "teams.csv", .file_column = "p"};
+  static const vsc_bench_variant variant = {.name = ""};
+  static const vsc_bench_problem problem = {.name = "p", .title = "P", .variants = &variant, .variant_count = 1,
+                                            .quantities = &q, .quantity_count = 1};
+  save_text("teams.csv", "time_s,p_ux_mean_mm,p_ux_min_mm,p_ux_max_mm\n0,1,0,4\n1,3,0,4\n");
+  must("mkdir -p runs/ours");
+  save_text("runs/ours/signals.csv", "time [s],point_p_ux [mm]\n0,2\n1,2\n");
+  vsc_bench_row row = {.quantity = &q, .value = 0.1, .reference = NAN};
+  row.of = (vsc_bench_case){.problem = &problem, .variant = &variant, .kind = &vsc_bench_kinds[0], .name = "ours"};
+  vsc_bench_report report = {0};
+  assert_true(vsc_bench_keep(&report, &row));
+  put_page(&report, text, sizeof text);
+  assert_holds(text, "<polygon fill=\"#ccc\" points=\"52.0,24.0 330.0,24.0 330.0,224.0 52.0,224.0 \"/>");
+  assert_holds(text, "points=\"52.0,124.0 330.0,124.0 \"/>");
+  assert_holds(text, ">ours</text>");
+  assert_int_equal(times_in(text, "<polyline"), 2);  // y and z have no columns
+  report.rows[0].skipped = true;
+  put_page(&report, text, sizeof text);
+  assert_int_equal(times_in(text, "<polyline"), 0);
+  vsc_bench_report_free(&report);
+}
+
+static void midlines_are_drawn(void **state)
+{
+  (void)state;
+  static char text[PROGRAM_TEXT];
+  must("mkdir -p curves");
+  save_text("curves/land_p2_midline.csv", "s,x_mm,y_mm,z_mm\n0.1,-2.114,0,-26.9776\n0.5,-10.5161,0,-17.8381\n1,-8.1837,0,5\n");
+  must("$V bench accuracy --only land_p2-plain-1 --reference curves -o lines" SCENES);
+  load_text("lines/index.html", text, sizeof text);
+  assert_holds(text, ">land_p2-plain-1</text>");
+  assert_int_equal(times_in(text, "<polyline"), 2);  // y is 0 there, and not drawn
 }
 
 static void failures_are_told(void **state)
@@ -174,10 +336,17 @@ int main(void)
       cmocka_unit_test(distances_and_bands_by_hand),
       cmocka_unit_test(curves_are_left_out_in_turn),
       cmocka_unit_test(powers_are_found),
+      cmocka_unit_test(tones_are_found),
       cmocka_unit_test(closed_forms_have_their_printed_values),
       cmocka_unit_test(cases_are_counted),
       cmocka_unit_test(targets_are_judged),
+      cmocka_unit_test(coarse_meshes_are_not_judged),
+      cmocka_unit_test(orders_are_judged),
+      cmocka_unit_test(steps_of_the_beat_halve),
       cmocka_unit_test(a_case_from_mesh_to_report),
+      cmocka_unit_test(orders_are_told),
+      cmocka_unit_test(histories_are_drawn),
+      cmocka_unit_test(midlines_are_drawn),
       cmocka_unit_test(failures_are_told),
   };
   return cmocka_run_group_tests(tests, program_open, program_close);

@@ -38,7 +38,9 @@ static const char help[] =
     "      --no-pictures     none of the results\n"
     "  -t, --threads N       number of threads (default: all processors)\n"
     "  -h, --help            this text\n\n"
-    "Exit code 3: a case failed or missed its target.\n\n"
+    "order: the error goes with the size of elements to this power, over the meshes so far; without a\n"
+    "reference, with the time step.\n"
+    "Exit code 3: a case failed, or missed a target. Meshes too coarse for a target are not judged by it.\n\n"
     "Examples:\n"
     "  viscera bench accuracy --quick\n"
     "  viscera bench accuracy --only land_p1 -o p1\n";
@@ -135,8 +137,8 @@ static vsc_status measure(const wish *wish, vsc_outcome *outcome, vsc_bench_row 
     row->value = measured.value;
     row->reference = measured.reference;
     row->skipped = measured.skipped;
-    vsc_bench_print(row);
     if (!vsc_bench_keep(report, row)) return vsc_fail_memory(error, "the report");
+    vsc_bench_print(&report->rows[report->count - 1]);
   }
   return VSC_OK;
 }
@@ -212,7 +214,7 @@ static vsc_status run_all(const wish *wish, vsc_bench_report *report, vsc_error 
   for (size_t p = 0; p < vsc_bench_problem_count && status == VSC_OK && wish->pictures; p++)
     draw(wish, report, vsc_bench_problems[p]);
   if (status == VSC_OK) status = vsc_bench_write_csv(report, wish->output, error);
-  if (status == VSC_OK) status = vsc_bench_write_page(report, wish->output, error);
+  if (status == VSC_OK) status = vsc_bench_write_page(report, wish->output, wish->reference, error);
   for (size_t k = 0; k < report->count && status == VSC_OK; k++)
     if (vsc_bench_judge(&report->rows[k]) == VSC_BENCH_MISSED)
       status = vsc_fail(error, VSC_NUMERICAL, "some cases failed or missed their targets");

@@ -92,3 +92,33 @@ double vsc_curve_frequency(size_t count, const double *times, const double *valu
   }
   return passages >= 2 ? 0.5 * (passages - 1) / (last - first) : NAN;
 }
+
+// Square of the windowed Fourier amplitude at a frequency.
+static double amplitude_at(size_t count, const double *times, const double *values, double mean, double frequency)
+{
+  const double span = times[count - 1] - times[0];
+  double real = 0, imaginary = 0;
+  for (size_t k = 0; k < count; k++) {
+    const double window = sin(M_PI * (times[k] - times[0]) / span), turn = 2 * M_PI * frequency * times[k];
+    real += window * window * (values[k] - mean) * cos(turn);
+    imaginary += window * window * (values[k] - mean) * sin(turn);
+  }
+  return real * real + imaginary * imaginary;
+}
+
+double vsc_curve_tone(size_t count, const double *times, const double *values, double low, double high)
+{
+  enum { STEPS = 200 };
+  double amplitude[STEPS + 1];
+  int most = 0;
+  if (count < 4) return NAN;
+  const double mean = gsl_stats_mean(values, 1, count), step = (high - low) / STEPS;
+  for (int k = 0; k <= STEPS; k++) {
+    amplitude[k] = amplitude_at(count, times, values, mean, low + k * step);
+    if (amplitude[k] > amplitude[most]) most = k;
+  }
+  if (most == 0 || most == STEPS) return NAN;
+  const double before = amplitude[most - 1], after = amplitude[most + 1],
+               bend = before - 2 * amplitude[most] + after;
+  return low + step * (most + (bend < 0 ? 0.5 * (before - after) / bend : 0));
+}

@@ -34,4 +34,9 @@ double vsc_own_order(const double h[3], const double values[3]);
 // the first, over the time from the first to the last; NAN for fewer than two passages.
 double vsc_curve_frequency(size_t count, const double *times, const double *values);
 
+// The frequency, per unit of time, from `low` to `high` at which `count` values about their mean have the largest Fourier
+// amplitude, windowed by sin^2 over their times (Hann), which lie evenly: a parabola through the three largest of 200
+// steps. NAN where it is largest at `low` or `high`, or for fewer than four values.
+double vsc_curve_tone(size_t count, const double *times, const double *values, double low, double high);
+
 #endif

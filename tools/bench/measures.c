@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/bench/measures.h"
 
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -127,9 +128,17 @@ vsc_status vsc_measure_least(const vsc_outcome *outcome, const vsc_bench_quantit
   const double *values;
   const vsc_status status = vsc_find_column(outcome, quantity->column, &values, error);
   if (status != VSC_OK) return status;
-  measured->value = INFINITY;
-  for (size_t r = 0; r < outcome->signals->rows; r++)
-    measured->value = fmin(measured->value, values[r]);
+  measured->value = gsl_stats_min(values, 1, outcome->signals->rows);
+  return VSC_OK;
+}
+
+vsc_status vsc_measure_most(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                            vsc_measured *measured, vsc_error *error)
+{
+  const double *values;
+  const vsc_status status = vsc_find_column(outcome, quantity->column, &values, error);
+  if (status != VSC_OK) return status;
+  measured->value = gsl_stats_max(values, 1, outcome->signals->rows);
   return VSC_OK;
 }
 
@@ -144,12 +153,23 @@ vsc_status vsc_measure_frequency(const vsc_outcome *outcome, const vsc_bench_qua
   return status;
 }
 
+vsc_status vsc_measure_tone(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                            vsc_measured *measured, vsc_error *error)
+{
+  const double *time, *values;
+  vsc_status status = vsc_find_column(outcome, "time", &time, error);
+  if (status == VSC_OK) status = vsc_find_column(outcome, quantity->column, &values, error);
+  if (status != VSC_OK) return status;
+  measured->value = vsc_curve_tone(outcome->signals->rows, time, values, quantity->at[0], quantity->at[1]);
+  if (!isnan(measured->value)) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT, "'%s' has no tone from %g to %g Hz", quantity->column, quantity->at[0],
+                  quantity->at[1]);
+}
+
 // How far a column falls below its first value.
 static double fall(size_t rows, const double *values)
 {
-  double least = INFINITY;
-  for (size_t r = 0; r < rows; r++) least = fmin(least, values[r]);
-  return values[0] - least;
+  return values[0] - gsl_stats_min(values, 1, rows);
 }
 
 vsc_status vsc_measure_stroke(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,

@@ -10,9 +10,9 @@
 // far it has moved. VSC_INPUT when it lies outside the body by more than 1 % of its size.
 vsc_bench_measure vsc_measure_place, vsc_measure_move;
 
-// The last row of quantity->column; its least value; oscillations per second of it
-// (vsc_curve_frequency).
-vsc_bench_measure vsc_measure_signal, vsc_measure_least, vsc_measure_frequency;
+// The last row of quantity->column; its least and its largest value; oscillations per second of it
+// (vsc_curve_frequency); the strongest tone in it from quantity->at[0] to at[1] Hz (vsc_curve_tone).
+vsc_bench_measure vsc_measure_signal, vsc_measure_least, vsc_measure_most, vsc_measure_frequency, vsc_measure_tone;
 
 // By how much quantity->column falls below its first value. Of a case of the variant "implicit" the
 // reference is that of "explicit", whose results lie beside its own; other cases have none.
@@ -28,6 +28,12 @@ vsc_bench_measure vsc_measure_sphere, vsc_measure_cylinder, vsc_measure_sphere_m
 // the last frame: largest distance from the reference curve (columns s, x_mm, y_mm, z_mm of
 // quantity->file) at the same s, from 0.02 on: fibres have no direction in the apex; largest y.
 vsc_bench_measure vsc_measure_midline, vsc_measure_midline_peak;
+
+// Land's beam, 10 mm x 1 mm x 1 mm along x, in the last frame: largest distance, mm, of the points x = 5, 7.5, 9 and
+// 10 mm of its mid-line (x, 0.5, 0.5) mm from where a program with 60 x 6 x 6 bricks of order 2 has them (torchcor); its
+// strains, percent by which the distances from the points x = 0, 1 to 9 mm of that line to the neighbours 1 mm further
+// along x, 0.4 mm along y and 0.4 mm along z change: largest difference from that program's, in percent points.
+vsc_bench_measure vsc_measure_beam_line, vsc_measure_beam_strains;
 
 // The strains of the paper's figures: percent by which the distances of neighbours among the points
 // s = 0.095 k, t = 0.1, 0.5, 0.9 change, along the circumference (to the image turned by 18 degrees), the
@@ -56,6 +62,9 @@ vsc_bench_measure vsc_measure_return;
 
 // The largest |balance_error| in percent of the largest energy_kinetic.
 vsc_bench_measure vsc_measure_balance;
+
+// Where the point of that mid-wall line at `s` is in the last frame, mm. VSC_INPUT as above.
+vsc_status vsc_midline_point(const vsc_outcome *outcome, double s, double now[3], vsc_error *error);
 
 // Where the point of the tissue that rests at `at` is in the last frame, mm. VSC_INPUT as above.
 vsc_status vsc_moved_point(const vsc_outcome *outcome, const double at[3], double now[3],

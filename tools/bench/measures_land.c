@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What Land et al. 2015 look at in the ventricles of their problems 2 and 3.
+// What Land et al. 2015 look at: the beam of their problem 1, the ventricles of problems 2 and 3.
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -20,15 +20,21 @@ static void wall_point(double t, double s, double turn, double at[3])
   at[2] = rl * cos(u);
 }
 
+vsc_status vsc_midline_point(const vsc_outcome *outcome, double s, double now[3], vsc_error *error)
+{
+  double at[3];
+  wall_point(0.5, s, 0, at);
+  return vsc_moved_point(outcome, at, now, error);
+}
+
 vsc_status vsc_measure_midline_peak(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
                                     vsc_measured *measured, vsc_error *error)
 {
   (void)quantity;
   measured->value = -INFINITY;
   for (int k = 2; k <= 100; k++) {
-    double at[3], now[3];
-    wall_point(0.5, 0.01 * k, 0, at);
-    const vsc_status status = vsc_moved_point(outcome, at, now, error);
+    double now[3];
+    const vsc_status status = vsc_midline_point(outcome, 0.01 * k, now, error);
     if (status != VSC_OK) return status;
     measured->value = fmax(measured->value, now[1]);
   }
@@ -46,9 +52,8 @@ vsc_status vsc_measure_midline(const vsc_outcome *outcome, const vsc_bench_quant
   const double *s = vsc_signals_find(table, "s");
   for (size_t r = 0; r < table->rows && status == VSC_OK; r++) {
     if (s[r] < 0.02) continue;
-    double at[3], now[3], apart = 0;
-    wall_point(0.5, s[r], 0, at);
-    status = vsc_moved_point(outcome, at, now, error);
+    double now[3], apart = 0;
+    status = vsc_midline_point(outcome, s[r], now, error);
     for (int a = 0; a < 3 && status == VSC_OK; a++)
       apart += pow(now[a] - vsc_signals_find(table, names[a])[r], 2);
     measured->value = fmax(measured->value, sqrt(apart));
@@ -72,6 +77,52 @@ static vsc_status strain(const vsc_outcome *outcome, const double a[3], const do
   *percent = 100 * (sqrt(now / rest) - 1);
   return VSC_OK;
 }
+
+// ---- the beam
+
+vsc_status vsc_measure_beam_line(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                                 vsc_measured *measured, vsc_error *error)
+{
+  static const double rest[4] = {5, 7.5, 9, 10};
+  static const double there[4][3] = {
+      {4.8307, 0.5, 1.6581}, {7.1204, 0.5, 2.6611}, {8.4814, 0.5, 3.2919}, {9.388, 0.5, 3.714}};
+  (void)quantity;
+  measured->value = 0;
+  for (int k = 0; k < 4; k++) {
+    const double at[3] = {rest[k], 0.5, 0.5};
+    double now[3];
+    const vsc_status status = vsc_moved_point(outcome, at, now, error);
+    if (status != VSC_OK) return status;
+    measured->value =
+        fmax(measured->value, hypot(hypot(now[0] - there[k][0], now[1] - there[k][1]), now[2] - there[k][2]));
+  }
+  return VSC_OK;
+}
+
+vsc_status vsc_measure_beam_strains(const vsc_outcome *outcome, const vsc_bench_quantity *quantity,
+                                    vsc_measured *measured, vsc_error *error)
+{
+  static const double step[3] = {1, 0.4, 0.4};
+  static const double there[3][10] = {
+      {-0.1561, -0.1049, -0.0645, -0.0346, -0.0153, -0.0039, 0.0020, 0.0046, 0.0054, NAN},
+      {0, 0.3813, 0.2474, 0.1553, 0.0947, 0.0576, 0.0369, 0.0270, 0.0233, 0.0223},
+      {0, 0.8831, 0.7253, 0.5749, 0.4326, 0.3043, 0.1940, 0.1051, 0.0399, 0}};
+  (void)quantity;
+  measured->value = 0;
+  for (int axis = 0; axis < 3; axis++)
+    for (int k = 0; k < 10; k++) {
+      const double at[3] = {k, 0.5, 0.5};
+      double next[3] = {k, 0.5, 0.5}, here;
+      next[axis] += step[axis];
+      if (isnan(there[axis][k])) continue;
+      const vsc_status status = strain(outcome, at, next, &here, error);
+      if (status != VSC_OK) return status;
+      measured->value = fmax(measured->value, fabs(here - there[axis][k]));
+    }
+  return VSC_OK;
+}
+
+// ---- the strains of the ventricles
 
 // The strain at point `k` (1 to 10) of a layer ("endo", "mid", "epi") in a direction ("circ", "long",
 // "trans").

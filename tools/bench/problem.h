@@ -38,6 +38,9 @@ struct vsc_bench_quantity {
   double percent;              // target: |value - reference| <= this part of |reference|;
   double within;               // or this, in the same unit; both 0: no target
   unsigned held;               // kinds that the target is for; 0: all
+  double from, upto;           // elements of the meshes that it is for, least and most; 0: any. Others only show how
+                               // errors fall
+  double order[2];             // target for the observed order, least and most; both 0: none
 };
 
 // Kinds of elements, as bits.

@@ -22,10 +22,15 @@ static const vsc_bench_quantity tones[] = {
     // Timoshenko's beam with Cowper's shear; 0.5108 Hz by Euler and Bernoulli
     {.name = "frequency", .unit = "Hz", .measure = vsc_measure_frequency, .column = "momentum_x",
      .reference = 0.506874, .percent = 1, .held = VSC_BENCH_QUADRATIC},
+    // likewise; 3.2014 and 8.9639 Hz
+    {.name = "second frequency", .unit = "Hz", .measure = vsc_measure_tone, .column = "momentum_x", .at = {2, 4.5},
+     .reference = 3.03973, .percent = 2, .held = VSC_BENCH_QUADRATIC},
+    {.name = "third frequency", .unit = "Hz", .measure = vsc_measure_tone, .column = "momentum_x", .at = {6, 11},
+     .reference = 8.00108, .percent = 5, .held = VSC_BENCH_QUADRATIC},
 };
 
 const vsc_bench_problem vsc_bench_vibration = {
-    .name = "vibration", .title = "A soft bar swings: its lowest frequency",
+    .name = "vibration", .title = "A soft bar swings: its three lowest frequencies",
     .scene = "vibration.yaml", .shape = "block --size=10,10,100",
     .variants = VSC_COUNTED(explicit_or_not), .sizes = VSC_COUNTED(bars),
     .quantities = VSC_COUNTED(tones),
@@ -46,17 +51,18 @@ static const vsc_bench_size twisted[] = {
     {VSC_BENCH_ALL, "--cells=8,8,48"},
 };
 
-#define COLUMN(curves, away, back, part, most)                                                                   \
-  {.name = "distance of a corner", .unit = "1", .measure = vsc_measure_course, .column = "point_corner_u", \
-   .file = curves, .file_column = "corner", .reference = 0, .within = most, .held = VSC_BENCH_QUADRATIC}, \
-  {.name = "back after", .unit = "s", .measure = vsc_measure_return, .column = "point_corner_u",     \
-   .at = {away}, .reference = back, .percent = part, .held = VSC_BENCH_QUADRATIC},                                     \
-  {.name = "energy off by", .unit = "%", .measure = vsc_measure_balance, .reference = 0, .within = 0.1}, \
+#define COLUMN(curves, away, back, part, most, least)                                                            \
+  {.name = "distance of a corner", .unit = "1", .measure = vsc_measure_course, .column = "point_corner_u",       \
+   .file = curves, .file_column = "corner", .reference = 0, .within = most, .held = VSC_BENCH_QUADRATIC,         \
+   .from = least},                                                                                               \
+  {.name = "back after", .unit = "s", .measure = vsc_measure_return, .column = "point_corner_u",                 \
+   .at = {away}, .reference = back, .percent = part, .held = VSC_BENCH_QUADRATIC, .from = least},                \
+  {.name = "energy off by", .unit = "%", .measure = vsc_measure_balance, .reference = 0, .within = 0.1},         \
   {.name = "smallest J", .unit = "1", .measure = vsc_measure_least, .column = "J_min", .reference = NAN}
 
 static const vsc_bench_variant explicit_only[] = {{"explicit", 0, {"solve=explicit"}}};
 
-static const vsc_bench_quantity bends[] = {COLUMN("column_bending.csv", 0, 0.909, 1, 0.02)};
+static const vsc_bench_quantity bends[] = {COLUMN("column_bending.csv", 0, 0.909, 1, 0.02, 1920)};
 
 const vsc_bench_problem vsc_bench_bending_column = {
     .name = "bending_column", .title = "A column bends and swings back, 10 m/s at its top",
@@ -64,7 +70,7 @@ const vsc_bench_problem vsc_bench_bending_column = {
     .variants = VSC_COUNTED(explicit_only), .sizes = VSC_COUNTED(bent), .quantities = VSC_COUNTED(bends),
 };
 
-static const vsc_bench_quantity twists[] = {COLUMN("column_twisting.csv", 0.12, 0.179, 2, 0)};
+static const vsc_bench_quantity twists[] = {COLUMN("column_twisting.csv", 0.12, 0.179, 1, 0.08, 15360)};
 
 const vsc_bench_problem vsc_bench_twisting_column = {
     .name = "twisting_column", .title = "A column twists by most of a turn and back, 105 rad/s at its top",
@@ -76,17 +82,19 @@ const vsc_bench_problem vsc_bench_twisting_column = {
 // ---- Arostica et al. 2025
 
 // Of a component the part of time points in the band of all teams, and what that part is for a team in the band of the
-// others: what a program that is as right as theirs comes to.
-#define IN_BAND(p, letter, number, curves)                                                                       \
+// others: what a program that is as right as theirs comes to. The target, of quadratic tets alone, is what README tells of
+// the component that is least in the band, `lost` percent short of all time points.
+#define IN_BAND(p, letter, number, curves, lost)                                                                 \
   {.name = p " " letter " in the band", .unit = "%", .measure = vsc_measure_band, .column = "point_" p "_u",     \
-   .file = curves "_stats.csv", .file_column = p, .axis = number, .reference = 100, .within = 5},                \
+   .file = curves "_stats.csv", .file_column = p, .axis = number, .reference = 100, .within = lost,              \
+   .held = VSC_BENCH_POINTS},                                                                                     \
   {.name = p " " letter " of a team", .unit = "%", .measure = vsc_measure_team_band, .file = curves "_all.csv",  \
    .file_column = p, .axis = number, .reference = NAN}
 
-#define POINT(p, curves, most)                                                                                   \
+#define POINT(p, curves, most, lost)                                                                             \
   {.name = "distance of " p, .unit = "1", .measure = vsc_measure_history, .column = "point_" p "_u",             \
    .file = curves "_stats.csv", .file_column = p, .reference = 0, .within = most},                               \
-  IN_BAND(p, "x", 0, curves), IN_BAND(p, "y", 1, curves), IN_BAND(p, "z", 2, curves)
+  IN_BAND(p, "x", 0, curves, lost), IN_BAND(p, "y", 1, curves, lost), IN_BAND(p, "z", 2, curves, lost)
 
 // Viscosity and dashpots bring the stable step down to 0.003 ms: inertia of neighbours against one another makes it 0.1 ms,
 // which moves no distance below by more than 0.013.
@@ -103,7 +111,10 @@ static const vsc_bench_size walls[] = {
 };
 
 static const vsc_bench_quantity contracts[] = {
-    POINT("p0", "arostica_mono_0A", 0.05), POINT("p1", "arostica_mono_0A", 0.05)};
+    POINT("p0", "arostica_mono_0A", 0.05, 6), POINT("p1", "arostica_mono_0A", 0.05, 6),
+    // 77.4 to 78.9 ml of the programs that agree, and two millilitres about them
+    {.name = "smallest cavity", .unit = "ml", .measure = vsc_measure_least, .column = "cavity_endo",
+     .reference = 78.15, .within = 2.75}};
 
 const vsc_bench_problem vsc_bench_arostica_0a = {
     .name = "arostica_0a", .title = "Arostica 2025, case 0A: a ventricle contracts",
@@ -113,7 +124,10 @@ const vsc_bench_problem vsc_bench_arostica_0a = {
 };
 
 static const vsc_bench_quantity snaps[] = {
-    POINT("p0", "arostica_mono_0B", 0.15), POINT("p1", "arostica_mono_0B", 0.15)};
+    POINT("p0", "arostica_mono_0B", 0.15, 18), POINT("p1", "arostica_mono_0B", 0.15, 18),
+    // 252.6 to 264.7 ml, likewise
+    {.name = "largest cavity", .unit = "ml", .measure = vsc_measure_most, .column = "cavity_endo",
+     .reference = 258.65, .within = 8.05}};
 
 const vsc_bench_problem vsc_bench_arostica_0b = {
     .name = "arostica_0b", .title = "Arostica 2025, case 0B: a ventricle is filled and snaps through",
@@ -122,7 +136,7 @@ const vsc_bench_problem vsc_bench_arostica_0b = {
     .quantities = VSC_COUNTED(snaps),
 };
 static const vsc_bench_quantity beats[] = {
-    POINT("p0", "arostica_mono_1", 0.05), POINT("p1", "arostica_mono_1", 0.05),
+    POINT("p0", "arostica_mono_1", 0.05, 11), POINT("p1", "arostica_mono_1", 0.05, 11),
     // 81.1 to 82.8 ml of five programs that agree
     {.name = "smallest cavity", .unit = "ml", .measure = vsc_measure_least, .column = "cavity_endo",
      .reference = 82, .within = 2}};
@@ -135,8 +149,8 @@ const vsc_bench_problem vsc_bench_arostica_1 = {
 };
 
 static const vsc_bench_quantity two_beat[] = {
-    POINT("p0", "arostica_biv_coarse", 0.15), POINT("p1", "arostica_biv_coarse", 0.15),
-    POINT("p2", "arostica_biv_coarse", 0.15)};
+    POINT("p0", "arostica_biv_coarse", 0.15, 27), POINT("p1", "arostica_biv_coarse", 0.15, 27),
+    POINT("p2", "arostica_biv_coarse", 0.15, 27)};
 
 const vsc_bench_problem vsc_bench_arostica_biventricle = {
     .name = "arostica_biventricle", .title = "Arostica 2025, case 2: two ventricles beat",
@@ -146,15 +160,16 @@ const vsc_bench_problem vsc_bench_arostica_biventricle = {
 };
 // ---- order in time, and explicit against implicit, on the first half second of a beat
 
+// None is longer than the 2 ms between rows, which would cut it.
 static const vsc_bench_variant steps[] = {
     {"explicit", 0, {"solve=explicit"}},
     {"implicit", 0, {"solve=implicit"}},
     {"explicit-0.016", 0.016, {"solve=explicit", "time.step=0.016 ms"}},
     {"explicit-0.008", 0.008, {"solve=explicit", "time.step=0.008 ms"}},
     {"explicit-0.004", 0.004, {"solve=explicit", "time.step=0.004 ms"}},
-    {"implicit-4", 4, {"solve=implicit", "time.step=4 ms"}},
-    {"implicit-2", 2, {"solve=implicit", "time.step=2 ms"}},
-    {"implicit-1", 1, {"solve=implicit", "time.step=1 ms"}},
+    {"implicit-0.5", 0.5, {"solve=implicit", "time.step=0.5 ms", "solver.tolerance=1e-8"}},
+    {"implicit-0.25", 0.25, {"solve=implicit", "time.step=0.25 ms", "solver.tolerance=1e-8"}},
+    {"implicit-0.125", 0.125, {"solve=implicit", "time.step=0.125 ms", "solver.tolerance=1e-8"}},
 };
 
 static const vsc_bench_size small_hearts[] = {
@@ -163,9 +178,9 @@ static const vsc_bench_size small_hearts[] = {
 
 static const vsc_bench_quantity strokes[] = {
     {.name = "stroke", .unit = "ml", .measure = vsc_measure_stroke, .column = "cavity_endo",
-     .reference = NAN, .percent = 0.5},
+     .reference = NAN, .percent = 0.5, .order = {1.8, 2.2}},
     {.name = "cavity at the end", .unit = "ml", .measure = vsc_measure_signal, .column = "cavity_endo",
-     .reference = NAN},
+     .reference = NAN, .order = {1.8, 2.2}},
 };
 
 const vsc_bench_problem vsc_bench_beat = {

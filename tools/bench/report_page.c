@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page: for each problem a table, pictures, and how errors fall with the number of unknowns.
+// The page: for each problem a table, pictures, how errors fall with the number of unknowns, and curves.
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "io/replace.h"
 #include "tools/bench/report.h"
+#include "tools/bench/report_curves.h"
 
 static const char head[] =
     "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>viscera: accuracy</title>\n"
@@ -73,11 +74,10 @@ static void put_table(FILE *page, const vsc_bench_report *report, size_t first)
       fputs("<tr><td colspan=\"7\"></td>", page);
     last = row->of.name;
     put_value(page, row);
-    const double order = row->quantity != NULL ? vsc_bench_order(report, row) : NAN;
-    if (isnan(order))
+    if (isnan(row->order))
       fputs("<td></td></tr>\n", page);
     else
-      fprintf(page, "<td>%.1f</td></tr>\n", order);
+      fprintf(page, "<td>%.2f</td></tr>\n", row->order);
   }
   fputs("</table>\n", page);
 }
@@ -187,7 +187,8 @@ static void put_graphs(FILE *page, const vsc_bench_report *report, size_t first)
   }
 }
 
-vsc_status vsc_bench_write_page(const vsc_bench_report *report, const char *folder, vsc_error *error)
+vsc_status vsc_bench_write_page(const vsc_bench_report *report, const char *folder, const char *reference,
+                                vsc_error *error)
 {
   char file[VSC_FILE_NAME], picture[VSC_FILE_NAME];
   vsc_replacement written;
@@ -202,6 +203,7 @@ vsc_status vsc_bench_write_page(const vsc_bench_report *report, const char *fold
     fprintf(page, "<h2>%s</h2>\n", problem->title);
     put_table(page, report, k);
     put_graphs(page, report, k);
+    vsc_bench_put_curves(page, report, k, folder, reference);
     snprintf(picture, sizeof picture, "%s/%s.png", folder, problem->name);
     if (access(picture, R_OK) == 0)
       fprintf(page, "<p><img src=\"%s.png\" alt=\"%s\"></p>\n", problem->name, problem->title);
