@@ -312,6 +312,54 @@ static void midlines_are_drawn(void **state)
   load_text("lines/index.html", text, sizeof text);
   assert_holds(text, ">land_p2-plain-1</text>");
   assert_int_equal(times_in(text, "<polyline"), 2);  // y is 0 there, and not drawn
+  // the base is held: both lines end in the same place
+  double end[2][2];
+  const char *at = text;
+  for (int k = 0; k < 2; k++) {
+    at = strstr(at, "<polyline") + 1;
+    const char *const points = strstr(at, "points=");
+    assert_int_equal(sscanf(points, "points=\"%*f,%*f %*f,%*f %lf,%lf", &end[k][0], &end[k][1]), 2);
+  }
+  // printed to 0.1
+  assert_close(end[1][0], end[0][0], 0, 0.11);
+  assert_close(end[1][1], end[0][1], 0, 0.11);
+}
+
+// Each of the beam's quantities is within its target with 900 quadratic tets; a wrong point or neighbour would be far off.
+static void the_beam_bends_like_others(void **state)
+{
+  (void)state;
+  must("$V bench accuracy --only land_p1-quadratic-3 -o bent" SCENES);
+  assert_int_equal(times_in(said, " met\n"), 3);
+  assert_holds(said, "distance of the mid-line");
+  assert_holds(said, "strains");
+}
+
+static void signals_are_measured(void **state)
+{
+  (void)state;
+  enum { ROWS = 401 };
+  static char names[2][VSC_NAME] = {"time", "pull"};
+  static double values[2 * ROWS];
+  for (int k = 0; k < ROWS; k++) {
+    values[k] = 0.01 * k;
+    values[ROWS + k] = 3 + sin(2 * M_PI * 2.5 * values[k]);
+  }
+  vsc_signals signals = {.columns = 2, .rows = ROWS, .names = names, .values = values};
+  const vsc_outcome outcome = {.signals = &signals};
+  vsc_bench_quantity q = {.column = "pull", .at = {2, 3}};
+  vsc_measured measured;
+  vsc_error error;
+  // a row lies on each peak; ten turns in the window
+  assert_int_equal(vsc_measure_most(&outcome, &q, &measured, &error), VSC_OK);
+  assert_close(measured.value, 4, 1e-12, 0);
+  assert_int_equal(vsc_measure_least(&outcome, &q, &measured, &error), VSC_OK);
+  assert_close(measured.value, 2, 1e-12, 0);
+  assert_int_equal(vsc_measure_tone(&outcome, &q, &measured, &error), VSC_OK);
+  assert_close(measured.value, 2.5, 1e-3, 0);
+  q.at[1] = 2.2;
+  assert_int_equal(vsc_measure_tone(&outcome, &q, &measured, &error), VSC_INPUT);
+  assert_string_equal(error.text, "'pull' has no tone from 2 to 2.2 Hz");
 }
 
 static void failures_are_told(void **state)
@@ -347,6 +395,8 @@ int main(void)
       cmocka_unit_test(orders_are_told),
       cmocka_unit_test(histories_are_drawn),
       cmocka_unit_test(midlines_are_drawn),
+      cmocka_unit_test(the_beam_bends_like_others),
+      cmocka_unit_test(signals_are_measured),
       cmocka_unit_test(failures_are_told),
   };
   return cmocka_run_group_tests(tests, program_open, program_close);
