@@ -8,7 +8,7 @@
 #include "tools/bench/measures.h"
 #include "tools/results.h"
 
-enum { WIDTH = 480, HEIGHT = 260, LEFT = 52, TOP = 24, RIGHT = 150, BOTTOM = 36, MOST = 16 };
+enum { WIDTH = 520, HEIGHT = 260, LEFT = 52, TOP = 24, RIGHT = 190, BOTTOM = 36, MOST = 16 };
 
 typedef struct line {
   const char *name;
