@@ -62,10 +62,10 @@ static void put_axes(FILE *page, const graph *g)
   const double dx = step_of(g->x), dy = step_of(g->y);
   for (double k = ceil(g->x[0] / dx); k * dx <= g->x[1]; k++)
     fprintf(page, "<path d=\"M%.1f %d V%d\" stroke=\"#ddd\"/><text x=\"%.1f\" y=\"%d\" text-anchor=\"middle\">%g</text>\n",
-            across(g, k * dx), TOP, HEIGHT - BOTTOM, across(g, k * dx), HEIGHT - BOTTOM + 14, k * dx);
+            across(g, k * dx), TOP, HEIGHT - BOTTOM, across(g, k * dx), HEIGHT - BOTTOM + 14, k * dx + 0.0);  // not -0
   for (double k = ceil(g->y[0] / dy); k * dy <= g->y[1]; k++)
     fprintf(page, "<path d=\"M%d %.1f H%d\" stroke=\"#ddd\"/><text x=\"%d\" y=\"%.1f\" text-anchor=\"end\">%g</text>\n",
-            LEFT, down(g, k * dy), WIDTH - RIGHT, LEFT - 4, down(g, k * dy) + 4, k * dy);
+            LEFT, down(g, k * dy), WIDTH - RIGHT, LEFT - 4, down(g, k * dy) + 4, k * dy + 0.0);
   fprintf(page, "<text x=\"%d\" y=\"%d\" text-anchor=\"middle\">%s</text>\n", (LEFT + WIDTH - RIGHT) / 2, HEIGHT - 4,
           g->x_title);
 }
