@@ -171,6 +171,36 @@ static void test_energy_made_by_implicit_steps(void **state)
   assert_close(strtod(summary("kept", "energy_taken_part"), NULL), 0, 0, 0.1);
 }
 
+// Bricks of a law with large exponents are drawn to twice their length: that it goes on as a polynomial is told once.
+static void test_frames_beyond_the_exponent(void **state)
+{
+  (void)state;
+  static const char drawn[] =
+      "mesh: {file: bricks.vtu, unit: mm}\n"
+      "node_sets: [{name: a, node_array: x0, value: 1}, {name: b, node_array: x1, value: 1}]\n"
+      "fibers: {source: constant, constant: {fiber: [1, 0, 0]}}\n"
+      "materials:\n"
+      "  - {name: muscle, density: 1 g/cm3, law: guccione, guccione: {C: 2 kPa, bf: 40, bt: 20, bfs: 30}, volume_modulus: 1 MPa}\n"
+      "supports:\n"
+      "  - {set: a, held: [x, y, z]}\n"
+      "  - {set: b, held: [x, y, z], motion: [10 mm, 0 mm, 0 mm], curve: {kind: ramp, duration: 1 s}}\n"
+      "solve: equilibrium\n"
+      "time: {end: 1 s}\n"
+      "output: {frames: 500 ms, signals: 500 ms}\n";
+  must("$V generate block --cells 2,1,1 --size 10,5,5 --element hex -o bricks.vtu");
+  save_text("drawn.yaml", drawn);
+  must("$V run drawn.yaml -o beyond");
+  assert_holds(complained, "viscera: warning: material muscle: 16 frames of elements at once were strained beyond exponent 20 of "
+                           "the law, from where it goes on as a polynomial: stresses there are too low; take smaller loads");
+  assert_string_equal(summary("beyond", "most_frames_beyond_exponent"), "16");
+  assert_holds(summary("beyond", "warning"), "beyond exponent 20");
+  must("$V run drawn.yaml -q -o beyond");
+  assert_string_equal(complained, "");
+  must("$V run drawn.yaml -o within --set 'supports[1].motion=[1 mm, 0 mm, 0 mm]'");
+  assert_null(strstr(complained, "exponent"));
+  assert_string_equal(summary("within", "most_frames_beyond_exponent"), "0");
+}
+
 // What begins to beat after some cycles does not repeat itself before.
 static void test_cycles_of_rest(void **state)
 {
@@ -255,6 +285,7 @@ int main(void)
       cmocka_unit_test(test_steps_that_rows_cut),
       cmocka_unit_test(test_rows_before_a_repetition_count),
       cmocka_unit_test(test_energy_made_by_implicit_steps),
+      cmocka_unit_test(test_frames_beyond_the_exponent),
       cmocka_unit_test(test_interrupted),
       cmocka_unit_test(test_interrupted_on_the_way),
       cmocka_unit_test(test_jerks_of_viscous_tissue),

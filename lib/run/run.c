@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <math.h>
+#include <stdarg.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -10,6 +11,8 @@
 #include "base/mem.h"
 #include "base/parallel.h"
 #include "io/checkpoint.h"
+#include "model/law_constants.h"
+#include "model/law_exponential.h"
 #include "run/events.h"
 #include "run/job.h"
 #include "run/prestress.h"
@@ -347,15 +350,43 @@ static vsc_status advance(vsc_job *job, double stop, vsc_error *error)
   return status;
 }
 
+// Adds a sentence to the warning of the result.
+__attribute__((format(printf, 2, 3))) static void warn(vsc_run_result *result, const char *format, ...)
+{
+  const size_t begun = strlen(result->warning);
+  va_list arguments;
+  va_start(arguments, format);
+  if (begun > 0 && begun + 3 < sizeof result->warning) strcpy(result->warning + begun, "; ");
+  vsnprintf(result->warning + strlen(result->warning), sizeof result->warning - strlen(result->warning), format, arguments);
+  va_end(arguments);
+}
+
 // Nobody goes back where implicit steps make energy, as looks let explicit ones do: it is told.
 static void warn_of_energy(const vsc_job *job, vsc_run_result *result)
 {
   const double made = vsc_watch_energy_made(job->watch);
   if (job->problem->model->solve.kind != VSC_SOLVE_IMPLICIT || made <= VSC_MOST_ENERGY_MADE) return;
-  snprintf(result->warning, sizeof result->warning,
-           "by the energy balance implicit steps have made %.0f %% of the largest energy or work: take shorter steps "
-           "(time.step, solver.accuracy), or scheme: generalized_alpha with a smaller rho; where loads act between rare "
-           "rows, which the balance does not see, closer rows (output.signals)", 100 * made);
+  warn(result,
+       "by the energy balance implicit steps have made %.0f %% of the largest energy or work: take shorter steps "
+       "(time.step, solver.accuracy), or scheme: generalized_alpha with a smaller rho; where loads act between rare "
+       "rows, which the balance does not see, closer rows (output.signals)", 100 * made);
+}
+
+// Stresses that the law as it is written does not have.
+static void warn_of_exponents(const vsc_job *job, vsc_run_result *result)
+{
+  const vsc_model *model = job->problem->model;
+  char names[160] = "";
+  if (job->most_continued == 0) return;
+  for (size_t m = 0; m < model->material_count; m++) {
+    const size_t length = strlen(names);
+    if (model->materials[m].element_count > 0 && vsc_law_has_exponent(model->materials[m].law))
+      snprintf(names + length, sizeof names - length, "%s%s", length > 0 ? ", " : "", model->materials[m].name);
+  }
+  warn(result,
+       "material %s: %.0f frames of elements at once were strained beyond exponent %g of the law, from where it goes on as a "
+       "polynomial: stresses there are too low; take smaller loads, or constants that are meant for such strains",
+       names, job->most_continued, VSC_LARGEST_EXPONENT);
 }
 
 static void fill_result(const vsc_job *job, vsc_run_result *result)
@@ -377,6 +408,7 @@ static void fill_result(const vsc_job *job, vsc_run_result *result)
   result->frames = job->pvd ? vsc_pvd_count(job->pvd) : 0;  // the writer has finished: a checkpoint was saved
   vsc_job_path(job, ".pvd", result->series);
   warn_of_energy(job, result);
+  warn_of_exponents(job, result);
 }
 
 // Leaves the last good state and the reason; what fails now on top of that is not told.

@@ -42,7 +42,8 @@ typedef struct vsc_run_result {
   bool interrupted;           // the run stopped before stop_time and its end because it was told to
   bool repeats;               // the run stopped because it was below time.cycle_tolerance
   char series[VSC_PATH];      // the PVD file
-  char warning[VSC_ERROR_TEXT];  // what is suspicious of it, in one line; empty: nothing
+  char warning[VSC_ERROR_TEXT];  // what is suspicious of it, in one line: energy that implicit steps have made, frames beyond
+                                 // a law's largest exponent; empty: nothing
 } vsc_run_result;
 
 // Part of the largest energy or work that implicit steps may make before that is warned of: half of it, so that energy
