@@ -151,35 +151,26 @@ static inline void hybrid_place(size_t n, size_t node, double jitter, uint64_t *
   }
 }
 
-// A cube of n x n x n bricks of 1 mm, [0, n]^3, right-handed and conforming, with elements of all
-// four kinds in mixed order when n > 1. Grid nodes move by up to `jitter` (mm, along each axis; 0.2
-// keeps all elements sound) within the block's faces and edges, so that those stay plane; which
-// brick is cut how, and where nodes go, comes from `seed`, which must not be 0. To be freed with
-// vsc_mesh_free.
-static inline vsc_mesh *hybrid_block(size_t n, double jitter, uint64_t seed)
+// The mesh of the bricks, cut as h->cuts says; takes what `h` owns.
+static inline vsc_mesh *hybrid_build(hybrid_builder *h, double jitter, uint64_t *seed)
 {
-  const size_t bricks = n * n * n, grid = (n + 1) * (n + 1) * (n + 1);
-  hybrid_builder h = {.n = n};
-  if (!VSC_NEW(h.cuts, bricks) || !VSC_NEW(h.kinds, 12 * bricks) ||
-      !VSC_NEW(h.corners, 12 * bricks))
-    abort();
-  hybrid_choose(&h, &seed);
+  const size_t n = h->n, bricks = n * n * n, grid = (n + 1) * (n + 1) * (n + 1);
   size_t nodes = grid;
   for (size_t b = 0; b < bricks; b++) {
     uint32_t brick[9];
     hybrid_brick(n, b, (uint32_t)nodes, brick);
-    hybrid_add_brick(&h, b, brick);
-    nodes += h.cuts[b] == HYBRID_STAR;
+    hybrid_add_brick(h, b, brick);
+    nodes += h->cuts[b] == HYBRID_STAR;
   }
-  vsc_mesh *mesh = vsc_mesh_create_cells(nodes, h.count, h.kinds, 0);
+  vsc_mesh *mesh = vsc_mesh_create_cells(nodes, h->count, h->kinds, 0);
   if (mesh == NULL) abort();
-  for (size_t e = 0; e < h.count; e++)
-    memcpy(mesh->corners + mesh->start[e], h.corners[e],
+  for (size_t e = 0; e < h->count; e++)
+    memcpy(mesh->corners + mesh->start[e], h->corners[e],
            (size_t)vsc_mesh_kind(mesh, e)->corners * sizeof(uint32_t));
-  for (size_t i = 0; i < grid; i++) hybrid_place(n, i, jitter, &seed, mesh->nodes + 3 * i);
+  for (size_t i = 0; i < grid; i++) hybrid_place(n, i, jitter, seed, mesh->nodes + 3 * i);
   size_t centre = grid;
   for (size_t b = 0; b < bricks; b++) {
-    if (h.cuts[b] != HYBRID_STAR) continue;
+    if (h->cuts[b] != HYBRID_STAR) continue;
     uint32_t brick[9];
     hybrid_brick(n, b, (uint32_t)centre, brick);
     for (int i = 0; i < 8; i++)
@@ -187,10 +178,38 @@ static inline vsc_mesh *hybrid_block(size_t n, double jitter, uint64_t seed)
         mesh->nodes[3 * centre + (size_t)k] += mesh->nodes[3 * (size_t)brick[i] + (size_t)k] / 8;
     centre++;
   }
-  vsc_free(h.cuts);
-  vsc_free(h.kinds);
-  vsc_free(h.corners);
+  vsc_free(h->cuts);
+  vsc_free(h->kinds);
+  vsc_free(h->corners);
   return mesh;
+}
+
+static inline hybrid_builder hybrid_begin(size_t n)
+{
+  const size_t bricks = n * n * n;
+  hybrid_builder h = {.n = n};
+  if (!VSC_NEW(h.cuts, bricks) || !VSC_NEW(h.kinds, 12 * bricks) || !VSC_NEW(h.corners, 12 * bricks)) abort();
+  return h;
+}
+
+// A cube of n x n x n bricks of 1 mm, [0, n]^3, right-handed and conforming, with elements of all
+// four kinds in mixed order when n > 1. Grid nodes move by up to `jitter` (mm, along each axis; 0.2
+// keeps all elements sound) within the block's faces and edges, so that those stay plane; which
+// brick is cut how, and where nodes go, comes from `seed`, which must not be 0. To be freed with
+// vsc_mesh_free.
+static inline vsc_mesh *hybrid_block(size_t n, double jitter, uint64_t seed)
+{
+  hybrid_builder h = hybrid_begin(n);
+  hybrid_choose(&h, &seed);
+  return hybrid_build(&h, jitter, &seed);
+}
+
+// The same with every brick cut alike: hexahedra, wedges, tets, or pyramids alone.
+static inline vsc_mesh *hybrid_block_of(size_t n, hybrid_cut cut, double jitter, uint64_t seed)
+{
+  hybrid_builder h = hybrid_begin(n);
+  for (size_t b = 0; b < n * n * n; b++) h.cuts[b] = cut;
+  return hybrid_build(&h, jitter, &seed);
 }
 
 #endif

@@ -5,11 +5,15 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
+#include "mesh/layers.h"
 #include "mesh/topology.h"
 #include "model/free_motions.h"
+#include "model/law_constants.h"
 #include "model/small_strain.h"
 #include "run/check.h"
 #include "run/idle_keys.h"
+
+#define SLENDER 8.0  // vsc_mesh_slenderness from which a body is taken to bend: a cube has 5, a bar of two cubes 7, of four 10
 
 // Where warnings go, and how many there were.
 typedef struct writer {
@@ -82,6 +86,18 @@ static void warn_volume(writer *w, const vsc_model *model, const vsc_material *m
          material->name, shear);
 }
 
+// Frames that keep volumes of their own lock where they bend, whatever volume they share. What is a hundred times the shear
+// modulus makes a beam of hexahedra 15 % too stiff; of laws that stiffen by exponentials more is right than at rest.
+static void warn_stabilization(writer *w, const vsc_model *model, const vsc_material *material)
+{
+  const double shear = vsc_material_shear(model, material), times = material->stabilization / shear;
+  if (!(shear > 0) || times < (vsc_law_has_exponent(material->law) ? 20 : 10)) return;
+  warn(w,
+       "material %s: stabilization is %.0f times the shear modulus at rest (%.3g kPa), so elements of every kind lock where they "
+       "bend; leave it out, or take about the shear modulus of the stretched tissue",
+       material->name, times, shear);
+}
+
 static void warn_material(writer *w, const vsc_problem *problem, size_t m)
 {
   const vsc_material *material = &problem->model->materials[m];
@@ -90,7 +106,10 @@ static void warn_material(writer *w, const vsc_problem *problem, size_t m)
   if (material->element_count == 0 && takes_elements)
     warn(w, "material %s: no element has its regions", material->name);
   if (!takes_elements) return;
-  if (vsc_law_is_of_strain(material->law)) warn_volume(w, problem->model, material);
+  if (vsc_law_is_of_strain(material->law)) {
+    warn_volume(w, problem->model, material);
+    warn_stabilization(w, problem->model, material);
+  }
   if (vsc_law_is_of_strain(material->law) && definition->materials[m].stabilization > 0 &&
       material->stabilization == 0)
     warn(w, "material %s: stabilization does nothing with volume: element", material->name);
@@ -195,38 +214,78 @@ static void warn_fibers(writer *w, const vsc_problem *problem)
          f->worst_sheet_angle);
 }
 
-// The part of the elements whose corners are all on the boundary: near 1 for a wall of one layer, 0 from
-// two on. -1 when memory is short.
-static double boundary_elements(const vsc_mesh *mesh)
+// Elements by the layers through the wall where they are.
+typedef struct layer_counts {
+  size_t on_surface, single, tets, shallow_tets;
+  size_t place;  // an element amid the single ones
+} layer_counts;
+
+static bool count_layers(const vsc_mesh *mesh, layer_counts *counts)
 {
-  vsc_surface boundary = {0};
-  uint8_t *outside;
-  size_t count = 0;
-  if (!VSC_NEW(outside, mesh->node_count)) return -1;
-  const bool found = vsc_boundary(mesh, &boundary, NULL) == VSC_OK;
-  for (size_t k = 0; k < 3 * boundary.count; k++) outside[boundary.triangles[k]] = 1;
-  for (size_t e = 0; e < mesh->element_count; e++) {
-    bool all = true;
-    for (int c = 0; c < vsc_mesh_kind(mesh, e)->vertices; c++)
-      all = all && outside[vsc_mesh_corners(mesh, e)[c]];
-    count += all;
+  uint8_t *flags;
+  size_t seen = 0;
+  *counts = (layer_counts){0};
+  if (!VSC_NEW(flags, mesh->element_count)) return false;
+  const bool found = vsc_mesh_layers(mesh, flags, NULL) == VSC_OK;
+  for (size_t e = 0; e < mesh->element_count && found; e++) {
+    counts->on_surface += (flags[e] & VSC_ON_SURFACE) != 0;
+    counts->single += (flags[e] & VSC_ONE_LAYER) != 0;
+    counts->tets += mesh->kinds[e] == VSC_TET;
+    counts->shallow_tets += mesh->kinds[e] == VSC_TET && (flags[e] & VSC_FEW_LAYERS) != 0;
   }
-  vsc_surface_free(&boundary);
-  vsc_free(outside);
-  return found ? (double)count / (double)mesh->element_count : -1;
+  for (size_t e = 0; e < mesh->element_count && found && 2 * seen < counts->single; e++)
+    if (flags[e] & VSC_ONE_LAYER) seen++, counts->place = e;
+  vsc_free(flags);
+  return found;
 }
 
-static void warn_layers(writer *w, const vsc_problem *problem)
+static bool warn_one_layer(writer *w, const vsc_problem *problem, const layer_counts *counts)
+{
+  const vsc_mesh *mesh = problem->mesh;
+  const double part = (double)counts->single / (double)mesh->element_count;
+  char where[160] = "more than half of the elements have all corners on the surface";
+  double at[3];
+  if (part <= 0.1 && 2 * counts->on_surface <= mesh->element_count) return false;
+  vsc_mesh_element_centre(mesh, counts->place, at);
+  if (part > 0.1)
+    snprintf(where, sizeof where, "%.0f %% of the elements, as %u at (%.4g, %.4g, %.4g) mm, have no node inside beside them",
+             100 * part, mesh->element_source[counts->place], at[0], at[1], at[2]);
+  warn(w,
+       "mesh: %s, so the wall has fewer than two layers there while fibres turn through it: the apex and the twist will be "
+       "off; take two layers or more%s",
+       where, problem->scene->definition.tets == VSC_TETS_SMOOTHED ? ", or tets: plain" : "");
+  return true;
+}
+
+// Linear tets in thin walls, with what they are off by in problem 1 of Land et al. 2015 with two and with four layers.
+static void warn_bending(writer *w, const vsc_problem *problem, const layer_counts *counts)
+{
+  static const struct {
+    const char *name;
+    int two, four;
+  } kinds[] = {{"linear tets", 26, 12}, {"linear tets with node-averaged volume", 24, 9}, {"smoothed tets", 11, 4}};
+  const int kind = problem->scene->definition.tets == VSC_TETS_SMOOTHED ? 2 : problem->model->terms.nodal_volume;
+  if (2 * counts->shallow_tets <= problem->mesh->element_count || vsc_mesh_slenderness(problem->mesh) < SLENDER) return;
+  warn(w,
+       "mesh: the body is slender, and %.0f %% of its elements are %s where at most two layers lie through it: they bend too "
+       "little (a beam of two layers by %d %%, of four by %d %%); where it bends take mesh.order: 2, hexahedra or more layers",
+       100.0 * (double)counts->shallow_tets / (double)problem->mesh->element_count, kinds[kind].name, kinds[kind].two,
+       kinds[kind].four);
+}
+
+static void warn_layers(writer *w, const vsc_problem *problem, bool thorough)
 {
   const vsc_fiber_source source = problem->scene->fibers.source;
-  if (problem->mesh->element_count == 0 || source == VSC_FIBER_NONE || source == VSC_FIBER_CONSTANT)
-    return;
-  if (boundary_elements(problem->mesh) > 0.5)
-    warn(w,
-         "mesh: more than half of the elements have all corners on the surface, so the wall has fewer than "
-         "two layers while fibres turn through it: the apex and the twist will be off; take two layers or "
-         "more%s",
-         problem->scene->definition.tets == VSC_TETS_SMOOTHED ? ", or tets: plain" : "");
+  const vsc_model *model = problem->model;
+  const bool turning = source != VSC_FIBER_NONE && source != VSC_FIBER_CONSTANT;
+  bool bends = false;
+  layer_counts counts;
+  for (size_t m = 0; m < model->material_count; m++)
+    bends |= model->materials[m].element_count > 0 && vsc_law_is_of_strain(model->materials[m].law);
+  bends = bends && thorough && has_family(model, VSC_TETS);
+  if (problem->mesh->element_count == 0 || !(turning || bends) || !count_layers(problem->mesh, &counts)) return;
+  if (turning && warn_one_layer(w, problem, &counts)) return;
+  if (bends) warn_bending(w, problem, &counts);
 }
 
 // Whether anything pulls at the body at the time where it is loaded.
@@ -366,7 +425,7 @@ int vsc_check_warnings(const vsc_problem *problem, bool thorough, FILE *stream, 
   for (size_t m = 0; m < problem->model->material_count; m++)
     warn_material(&w, problem, m);
   warn_membranes(&w, problem);
-  warn_layers(&w, problem);
+  warn_layers(&w, problem, thorough);
   warn_fibers(&w, problem);
   warn_vessels(&w, problem);
   warn_prestress(&w, problem);
