@@ -342,11 +342,11 @@ static void volume_is_a_word_about_linear_tets(void **state)
 
 // The number of singular values below 1e-7 of the largest of the tangent at rest of a body, whose mesh
 // becomes the body's (differences of forces over 1e-5 mm: rounding 1e-10, third derivatives 1e-10).
-static int zero_modes_of(vsc_mesh *mesh, const vsc_material_def *material)
+static int zero_modes_shared(vsc_mesh *mesh, const vsc_material_def *material, vsc_volume_kind volume, vsc_tets_kind tets)
 {
   const size_t size = 3 * mesh->node_count;
   random_body body;
-  kinds_open(&body, mesh, material, VSC_VOLUME_ELEMENT, 90);
+  kinds_open_tets(&body, mesh, material, volume, tets, 90);
   gsl_matrix *K = gsl_matrix_calloc(size, size), *V = gsl_matrix_alloc(size, size);
   gsl_vector *values = gsl_vector_alloc(size), *room = gsl_vector_alloc(size);
   const double h = 1e-5;
@@ -372,6 +372,11 @@ static int zero_modes_of(vsc_mesh *mesh, const vsc_material_def *material)
   vsc_free(x);
   body_close(&body);
   return zeros;
+}
+
+static int zero_modes_of(vsc_mesh *mesh, const vsc_material_def *material)
+{
+  return zero_modes_shared(mesh, material, VSC_VOLUME_ELEMENT, VSC_TETS_PLAIN);
 }
 
 // The same of one element.
@@ -410,6 +415,26 @@ static void only_rigid_motion_is_free(void **state)
   assert_int_equal(zero_modes(VSC_TET, &paper), 6);
 }
 
+// So it is of patches: elements that hold one another have no motion without force that one alone has not, whatever shares
+// volumes and whatever tets see.
+static void only_rigid_motion_of_patches_is_free(void **state)
+{
+  (void)state;
+  static const char *const names[] = {"hexahedra", "wedges", "tets", "pyramids", "quadratic tets", "all kinds"};
+  const vsc_material_def materials[2] = {springs_material(NULL, NULL), tissue_law(2)};
+  for (int patch = 0; patch < 6; patch++)
+    for (int way = 0; way < 8; way++) {
+      vsc_material_def material = materials[way % 2];
+      if (way / 4 && patch != HYBRID_TETS && patch != 5) continue;  // nothing to smooth
+      if (way % 2 == 1) material.stabilization = 0;  // by default
+      vsc_mesh *mesh = patch < 4 ? hybrid_block_of(2, (hybrid_cut)patch, 0.15, 93)
+                       : patch == 4 ? mesh_of(ALL_TETS10, 1, 93) : hybrid_block(2, 0.15, 93);
+      const int free = zero_modes_shared(mesh, &material, way / 2 % 2 ? VSC_VOLUME_NODAL : VSC_VOLUME_ELEMENT,
+                                         way / 4 ? VSC_TETS_SMOOTHED : VSC_TETS_PLAIN);
+      if (free != 6) fail_msg("%s, way %d: %d motions are free", names[patch], way, free);
+    }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -422,6 +447,7 @@ int main(void)
       cmocka_unit_test(constant_stress_is_in_equilibrium),
       cmocka_unit_test(volume_is_a_word_about_linear_tets),
       cmocka_unit_test(only_rigid_motion_is_free),
+      cmocka_unit_test(only_rigid_motion_of_patches_is_free),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
