@@ -105,17 +105,174 @@ static void rubber_is_its_closed_form(void **state)
     stretched(&m, plane, normal);
     assert_close(normal[0] - normal[2], 3 * (pow(stretch, 2) - pow(stretch, -4)), 1e-13, 0);
   }
-  assert_close(sheared(&m, 0, 1, 0.4), 3 * 0.4, 1e-14, 0);
-  // Mooney-Rivlin: sigma = 2 (l^2 - 1/l) (c1 + c2/l)
-  m.law = VSC_LAW_MOONEY_RIVLIN;
+  for (double gamma = -0.6; gamma < 1; gamma += 0.5) assert_close(sheared(&m, 0, 1, gamma), 3 * gamma, 1e-14, 0);
+}
+
+// dpsi/dI_1 and dpsi/dI_2 of both laws of two invariants.
+static void invariant_slopes(const vsc_material_def *m, double I1, double W[2])
+{
+  const double c1 = m->law == VSC_LAW_MOONEY_RIVLIN ? m->mooney_rivlin.c1 : m->veronda_westmann.c1;
+  const double c2 = m->law == VSC_LAW_MOONEY_RIVLIN ? m->mooney_rivlin.c2 : m->veronda_westmann.c2;
+  W[0] = m->law == VSC_LAW_MOONEY_RIVLIN ? c1 : c1 * c2 * exp(c2 * (I1 - 3));
+  W[1] = m->law == VSC_LAW_MOONEY_RIVLIN ? c2 : -0.5 * c1 * c2;
+}
+
+static vsc_material_def of_invariants(int which)
+{
+  vsc_material_def m = vsc_default_material();
+  m.law = which == 0 ? VSC_LAW_MOONEY_RIVLIN : VSC_LAW_VERONDA_WESTMANN;
   m.mooney_rivlin = (vsc_invariants_def){1.4, 0.6};
-  assert_close(pulled(&m, 1, 1.5, l), 2 * (2.25 - 1 / 1.5) * (1.4 + 0.6 / 1.5), 1e-13, 0);
-  // Veronda-Westmann: 2 (l^2 - 1/l) c1 c2 (e^(c2 (I1 - 3)) - 1/(2 l))
-  m.law = VSC_LAW_VERONDA_WESTMANN;
   m.veronda_westmann = (vsc_invariants_def){0.7, 2.5};
-  const double I1 = 1.3 * 1.3 + 2 / 1.3;
-  assert_close(pulled(&m, 2, 1.3, l),
-               2 * (1.69 - 1 / 1.3) * 0.7 * 2.5 * (exp(2.5 * (I1 - 3)) - 0.5 / 1.3), 1e-13, 0);
+  m.volume_modulus = 1;
+  return m;
+}
+
+// Pulled 2 (l^2 - 1/l) (W_1 + W_2/l), in two directions 2 (l^2 - 1/l^4) (W_1 + l^2 W_2), sheared 2 gamma (W_1 + W_2).
+static void laws_of_two_invariants_are_their_closed_forms(void **state)
+{
+  (void)state;
+  for (int which = 0; which < 2; which++) {
+    const vsc_material_def m = of_invariants(which);
+    double l[3], normal[3], W[2];
+    for (double x = 0.75; x < 1.6; x += 0.2) {
+      invariant_slopes(&m, x * x + 2 / x, W);
+      for (int axis = 0; axis < 3; axis++)
+        assert_close(pulled(&m, axis, x, l), 2 * (x * x - 1 / x) * (W[0] + W[1] / x), 1e-12, 1e-12);
+      const double plane[3] = {x, 1 / (x * x), x};
+      stretched(&m, plane, normal);
+      invariant_slopes(&m, 2 * x * x + pow(x, -4), W);
+      assert_close(normal[0] - normal[1], 2 * (x * x - pow(x, -4)) * (W[0] + x * x * W[1]), 1e-12, 1e-12);
+      assert_close(normal[2], normal[0], 1e-13, 0);
+    }
+    for (double gamma = -0.7; gamma < 1; gamma += 0.3) {
+      invariant_slopes(&m, 3 + gamma * gamma, W);
+      assert_close(sheared(&m, 2, 0, gamma), 2 * gamma * (W[0] + W[1]), 1e-12, 0);
+    }
+  }
+}
+
+static const double usyk[6] = {8, 6, 3, 12, 4, 5};  // ff ss nn fs sn nf
+
+static vsc_material_def usyk_material(void)
+{
+  vsc_material_def m = vsc_default_material();
+  m.law = VSC_LAW_FUNG;
+  m.fung.C = 0.88;
+  memcpy(m.fung.b, usyk, sizeof usyk);
+  m.volume_modulus = 1;
+  return m;
+}
+
+// l_a^2 S_a = C e^Q b_aa l_a^2 E_a at stretches along the axes.
+static void usyk_stresses(const double l[3], double normal[3])
+{
+  double Q = 0;
+  for (int a = 0; a < 3; a++) Q += usyk[a] * pow((l[a] * l[a] - 1) / 2, 2);
+  for (int a = 0; a < 3; a++) normal[a] = 0.88 * exp(Q) * usyk[a] * l[a] * l[a] * (l[a] * l[a] - 1) / 2;
+}
+
+// Pulled along each axis, stretched in two directions by different stretches, sheared in all six ways:
+// C e^Q (b_ii gamma^3 + b_ij gamma)/2, Q = b_ii gamma^4/4 + b_ij gamma^2/2.
+static void fung_is_its_closed_form(void **state)
+{
+  (void)state;
+  const vsc_material_def m = usyk_material();
+  double l[3], normal[3], expected[3];
+  for (double x = 0.85; x < 1.35; x += 0.15)
+    for (int axis = 0; axis < 3; axis++) {
+      const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+      const double stress = pulled(&m, axis, x, l);
+      usyk_stresses(l, expected);
+      assert_close(expected[b], expected[c], 1e-10, 1e-12);  // free sides
+      assert_close(stress, expected[axis] - expected[b], 1e-10, 1e-12);
+      const double plane[3] = {x, 1.1, 1 / (1.1 * x)};
+      stretched(&m, plane, normal);
+      usyk_stresses(plane, expected);
+      for (int a = 0; a < 3; a++) assert_close(normal[a], expected[a], 1e-12, 1e-14);
+    }
+  for (double gamma = -0.4; gamma < 0.5; gamma += 0.2)
+    for (int i = 0; i < 3; i++)
+      for (int j = 0; j < 3; j++) {
+        if (i == j) continue;
+        const double b = usyk[3 + (j == (i + 1) % 3 ? i : j)];
+        const double Q = usyk[i] * pow(gamma, 4) / 4 + b * gamma * gamma / 2;
+        assert_close(sheared(&m, i, j, gamma), 0.88 * exp(Q) * (usyk[i] * pow(gamma, 3) + b * gamma) / 2, 1e-12, 1e-14);
+      }
+}
+
+// Springs: E_a l_a (l_a - 1) along the axes; sheared E_i gamma (1 - 1/n) + G_ij gamma/n^4, n^2 = 1 + gamma^2.
+static void springs_are_their_closed_form(void **state)
+{
+  (void)state;
+  static const double E[3] = {9, 6, 6}, G[3] = {3, 2, 5};
+  vsc_material_def m = vsc_default_material();
+  memcpy(m.axial, E, sizeof E);
+  memcpy(m.angular, G, sizeof G);
+  m.volume_modulus = 60;
+  double l[3], normal[3];
+  for (double x = 0.7; x < 1.7; x += 0.3) {
+    const double side = 1 / sqrt(x);
+    assert_close(pulled(&m, 0, x, l), 9 * x * (x - 1) - 6 * side * (side - 1), 1e-12, 1e-12);
+    const double plane[3] = {x, 1.2, 1 / (1.2 * x)};
+    stretched(&m, plane, normal);
+    for (int a = 0; a < 3; a++) assert_close(normal[a], E[a] * plane[a] * (plane[a] - 1), 1e-13, 1e-13);
+  }
+  for (double gamma = -0.5; gamma < 1; gamma += 0.4)
+    for (int i = 0; i < 3; i++)
+      for (int j = 0; j < 3; j++) {
+        if (i == j) continue;
+        const double n = sqrt(1 + gamma * gamma), g = G[j == (i + 1) % 3 ? i : j];
+        assert_close(sheared(&m, i, j, gamma), E[i] * gamma * (1 - 1 / n) + g * gamma / pow(n, 4), 1e-12, 1e-14);
+      }
+}
+
+// l'_a^2 S_a of the law on l' = J^(-1/3) l, less its mean: what an isochoric law has at stretches l, J times Cauchy's.
+static void isochoric_stresses(const vsc_material_def *m, const double l[3], double expected[3])
+{
+  double mean = 0, q[3], I1 = 0, W[2] = {0};
+  const double J = l[0] * l[1] * l[2];
+  for (int a = 0; a < 3; a++) q[a] = l[a] * l[a] * pow(J, -2. / 3), I1 += q[a];
+  const double k[3] = {sqrt(q[0]), sqrt(q[1]), sqrt(q[2])};
+  if (m->law == VSC_LAW_FUNG) usyk_stresses(k, expected);
+  if (m->law == VSC_LAW_MOONEY_RIVLIN || m->law == VSC_LAW_VERONDA_WESTMANN) invariant_slopes(m, I1, W);
+  if (m->law == VSC_LAW_NEO_HOOKEAN) W[0] = m->shear / 2;
+  if (m->law == VSC_LAW_HOLZAPFEL_OGDEN) W[0] = 29.5 * exp(8.023 * (I1 - 3));
+  for (int a = 0; a < 3 && m->law != VSC_LAW_FUNG; a++) expected[a] = 2 * (W[0] + W[1] * (I1 - q[a])) * q[a];
+  for (int a = 0; a < 3; a++) mean += expected[a] / 3;
+  for (int a = 0; a < 3; a++) expected[a] -= mean;
+  if (m->law != VSC_LAW_HOLZAPFEL_OGDEN) return;
+  const double a_k[2] = {18472, 2481}, b_k[2] = {16.026, 11.12};  // fibres and sheets see the whole deformation
+  for (int a = 0; a < 2; a++) {
+    const double x = l[a] * l[a] - 1;
+    if (x > 0) expected[a] += 2 * a_k[a] * x * exp(b_k[a] * x * x) * l[a] * l[a];
+  }
+}
+
+// Swollen, shrunk, pulled and pressed; and what is sheared and swollen has the shear stress of what is sheared alone.
+static void isochoric_laws_are_their_closed_forms(void **state)
+{
+  (void)state;
+  static const double stretches[4][3] = {{1.2, 1.1, 1.05}, {0.9, 0.8, 1.1}, {1.15, 1.15, 1.15}, {1.2, 0.8, 0.9}};
+  vsc_material_def laws[5] = {of_invariants(0), of_invariants(1), usyk_material(), myocardium(VSC_FIBRES_SHARP),
+                              vsc_default_material()};
+  laws[4].law = VSC_LAW_NEO_HOOKEAN;
+  laws[4].shear = 3;
+  laws[4].volume_modulus = 1;
+  for (int k = 0; k < 5; k++) {
+    laws[k].isochoric = true;
+    double normal[3], expected[3], sigma[9];
+    for (int s = 0; s < 4; s++) {
+      stretched(&laws[k], stretches[s], normal);
+      isochoric_stresses(&laws[k], stretches[s], expected);
+      const double size = fabs(expected[0]) + fabs(expected[1]) + fabs(expected[2]);
+      for (int a = 0; a < 3; a++) assert_close(normal[a], expected[a], 0, 1e-12 * (1 + size));
+    }
+    if (laws[k].law == VSC_LAW_HOLZAPFEL_OGDEN) continue;
+    const double swollen[9] = {1.1, 0, 0, 0.3 * 1.1, 1.1, 0, 0, 0, 1.1};
+    cauchy(&laws[k], swollen, sigma);
+    laws[k].isochoric = false;
+    assert_close(sigma[1], sheared(&laws[k], 0, 1, 0.3), 1e-12, 0);
+  }
 }
 
 // Figures of six digits.
@@ -239,6 +396,10 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(rubber_is_its_closed_form),
+      cmocka_unit_test(laws_of_two_invariants_are_their_closed_forms),
+      cmocka_unit_test(fung_is_its_closed_form),
+      cmocka_unit_test(springs_are_their_closed_form),
+      cmocka_unit_test(isochoric_laws_are_their_closed_forms),
       cmocka_unit_test(guccione_is_as_published),
       cmocka_unit_test(isotropic_guccione_is_as_published),
       cmocka_unit_test(holzapfel_ogden_is_as_published),
