@@ -53,7 +53,7 @@ static const vsc_row vsc_curve_group_rows[] = {
     {"duration", QUANTITY(vsc_curve_def, duration, VSC_TIME), .allowed = LASTING, .text = "300 ms",
      .meaning = "ramp, half_sine, tanh_pair"},
     {"rise", QUANTITY(vsc_curve_def, rise, VSC_TIME), .allowed = SMOOTH, .commented = true,
-     .text = "100 ms", .meaning = "double_hill: time constant; tanh_pair: default 20 ms"},
+     .text = "100 ms", .meaning = "double_hill: time constant; tanh_pair: default 20 ms (plausible, not published)"},
     {"fall", QUANTITY(vsc_curve_def, fall, VSC_TIME), .allowed = SMOOTH, .commented = true,
      .text = "300 ms", .meaning = "likewise; tanh_pair: default 20 ms"},
     {"rise_power", NUMBER(vsc_curve_def, rise_power), .allowed = HILL, .commented = true,

@@ -30,7 +30,8 @@ typedef struct vsc_curve_def {
   vsc_curve_kind kind;  // default CONSTANT
   double start;         // ms; default 0, BESTEL 160, BESTEL_PRESSURE 170
   double duration;      // ms; default 300
-  double rise;          // ms; DOUBLE_HILL time constant, TANH_PAIR steepness; default 100 and 20
+  double rise;          // ms; DOUBLE_HILL time constant, TANH_PAIR steepness; default 100 and 20 (the latter plausible, not
+                        // published)
   double fall;          // ms; likewise; default 300 and 20
   double rise_power;    // DOUBLE_HILL: default 2
   double fall_power;    // DOUBLE_HILL: default 20

@@ -16,7 +16,9 @@ vsc_status vsc_equilibrium_start(const vsc_model *model, vsc_state *state, vsc_e
 // them: the first is the whole way, each next 1.6 times as long after at most 5 iterations, 0.4 times
 // where Newton's method fails, starting from where the last two lead. Nothing moves: velocities
 // are 0. VSC_NUMERICAL, with a row of words on what went wrong, when even an increment of
-// 1/4000 fails; the state is then that of the last increment that succeeded.
+// 1/4000 fails; the state is then that of the last increment that succeeded. The whole way is tried first because most
+// loads are borne at once, a beam that bends to a third of its length in nine iterations, where five increments would take
+// more; one that fails has cost its iterations only.
 vsc_status vsc_equilibrium_to(const vsc_model *model, vsc_state *state, double until,
                               vsc_error *error);
 
