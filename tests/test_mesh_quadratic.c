@@ -99,14 +99,74 @@ static void tets_become_quadratic(void **state)
   vsc_mesh_free(mesh);
 }
 
-static void other_elements_are_refused(void **state)
+// Bricks, wedges, pyramids and tets: what becomes of them fills the same cube, fits, and has its element's data and source.
+static void other_elements_are_cut(void **state)
+{
+  (void)state;
+  vsc_mesh *mesh = hybrid_block(2, 0, 3);
+  size_t expected = 0, at = 0;
+  double volumes[128] = {0}, sums[128] = {0};
+  uint32_t tets[VSC_MOST_TETS][4];
+  const size_t elements = mesh->element_count, nodes = mesh->node_count;
+  assert_true(elements < 128);
+  double *number = vsc_arrays_add(&mesh->element_data, "number", 1, elements)->values;
+  for (size_t e = 0; e < elements; e++) {
+    number[e] = (double)e;
+    mesh->element_source[e] = 1000 + (uint32_t)e;
+    volumes[e] = vsc_mesh_element_volume(mesh, e);
+    expected += (size_t)vsc_mesh_split(mesh, e, tets);
+  }
+  double *place = vsc_arrays_add(&mesh->node_data, "place", 3, nodes)->values;
+  memcpy(place, mesh->nodes, 3 * nodes * sizeof *place);
+  raise_mesh(&mesh);
+  assert_int_equal(mesh->element_count, expected);
+  const double *owner = vsc_arrays_find(&mesh->element_data, "number")->values;
+  for (size_t e = 0; e < mesh->element_count; e++) {
+    assert_int_equal(mesh->kinds[e], VSC_TET10);
+    assert_int_equal(mesh->element_source[e], 1000 + (uint32_t)owner[e]);
+    assert_true(owner[e] >= (double)at);
+    at = (size_t)owner[e];
+    sums[at] += vsc_mesh_element_volume(mesh, e);
+  }
+  for (size_t e = 0; e < elements; e++) assert_close(sums[e], volumes[e], 1e-12, 0);
+  const double *places = vsc_arrays_find(&mesh->node_data, "place")->values;
+  for (size_t i = 0; i < 3 * mesh->node_count; i++) assert_close(places[i], mesh->nodes[i], 0, 1e-14);
+  // faces that did not fit would be on the boundary: the cube's is 6 x 2 x 2 mm2
+  vsc_surface boundary = {0};
+  assert_int_equal(vsc_boundary(mesh, &boundary, NULL), VSC_OK);
+  assert_close(vsc_surface_area(&boundary, mesh->nodes, 3), 24, 1e-12, 0);
+  vsc_surface_free(&boundary);
+  vsc_mesh_free(mesh);
+}
+
+static vsc_mesh *brick_with_triangle(double lift, const uint32_t triangle[3])
+{
+  static const double corners[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  vsc_mesh *mesh = vsc_mesh_create_cells(8, 1, (const uint8_t[]){VSC_HEX}, 1);
+  memcpy(mesh->nodes, corners, sizeof corners);
+  mesh->nodes[3 * 6 + 2] += lift;
+  for (uint32_t c = 0; c < 8; c++) mesh->corners[c] = c;
+  memcpy(mesh->triangles, triangle, 3 * sizeof *triangle);
+  return mesh;
+}
+
+static void what_cannot_be_raised_is_refused(void **state)
 {
   (void)state;
   vsc_error error;
-  vsc_mesh *mesh = hybrid_block(2, 0, 3);
+  vsc_mesh *mesh = brick_with_triangle(0, (const uint32_t[]){0, 2, 1});
+  raise_mesh(&mesh);
+  assert_int_equal(mesh->element_count, 6);
+  vsc_mesh_free(mesh);
+  mesh = brick_with_triangle(0, (const uint32_t[]){1, 3, 0});
   assert_int_equal(vsc_mesh_raise(&mesh, "m.vtu", &error), VSC_INPUT);
-  assert_non_null(strstr(error.text, "m.vtu: mesh.order: 2 makes quadratic tetrahedra of linear ones, "
-                                     "and the mesh has"));
+  assert_non_null(strstr(error.text, "m.vtu: 1 of its triangles lie across the cuts of its elements"));
+  vsc_mesh_free(mesh);
+  mesh = brick_with_triangle(-1.5, (const uint32_t[]){0, 2, 1});
+  mesh->element_source[0] = 7;
+  assert_int_equal(vsc_mesh_raise(&mesh, "m.vtu", &error), VSC_INPUT);
+  assert_non_null(strstr(error.text, "m.vtu: element 7, a hexahedron, is bent so much that it cannot be cut"));
+  assert_int_equal(mesh->kinds[0], VSC_HEX);
   vsc_mesh_free(mesh);
   mesh = vsc_mesh_create(3, 0, 1);
   mesh->nodes[3] = mesh->nodes[7] = 1;
@@ -413,7 +473,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(tets_become_quadratic),
-      cmocka_unit_test(other_elements_are_refused),
+      cmocka_unit_test(other_elements_are_cut),
+      cmocka_unit_test(what_cannot_be_raised_is_refused),
       cmocka_unit_test(what_does_not_fit_is_refused),
       cmocka_unit_test(left_handed_ones_are_turned),
       cmocka_unit_test(it_is_split_in_eight),

@@ -30,7 +30,7 @@ static const vsc_row mesh_rows[] = {
     {"region_array", NAME(vsc_scene, definition.region_array), .commented = true, .text = "region",
      .meaning = "cell array of region numbers, whole ones; absent: one region, 0"},
     {"order", .kind = VSC_ROW_WHOLE_INT, AT(vsc_scene, mesh_order), .text = "1",
-     .meaning = "2: tetrahedra become quadratic ones, with a node in the middle of each edge"},
+     .meaning = "2: elements become quadratic tetrahedra (other kinds are cut into such), with a node in the middle of each edge"},
     {"curved", PARTS(vsc_scene, curved, curved_count, curved), .commented = true,
      .meaning = "order: 2: surfaces whose edges are bent onto an ellipsoid"},
 };

@@ -8,24 +8,21 @@
 #include "base/mem.h"
 #include "base/vec3.h"
 #include "mesh/edges.h"
+#include "mesh/split.h"
 
 static const double FAR = 0.1;  // part of an edge that a corner may be off the ellipsoid
 
 // ---- raising the order
 
-static vsc_status check_kinds(const vsc_mesh *mesh, const char *name, vsc_error *error)
+// Elements of other kinds than tets are cut into such.
+static vsc_status make_tets(vsc_mesh **mesh, const char *name, vsc_error *error)
 {
-  char kinds[128];
-  for (size_t e = 0; e < mesh->element_count; e++)
-    if (mesh->kinds[e] != VSC_TET)
-      return vsc_fail(error, VSC_INPUT,
-                      "%s: mesh.order: 2 makes quadratic tetrahedra of linear ones, and the mesh has %s: "
-                      "mesh with tetrahedra, or leave out mesh.order",
-                      name, vsc_mesh_kinds_text(mesh, kinds, sizeof kinds));
-  if (mesh->element_count > 0) return VSC_OK;
-  return vsc_fail(error, VSC_INPUT,
-                  "%s: mesh.order: 2 needs tetrahedra, and the mesh is a surface: leave out mesh.order",
-                  name);
+  if ((*mesh)->element_count == 0)
+    return vsc_fail(error, VSC_INPUT, "%s: mesh.order: 2 needs elements, and the mesh is a surface: leave out mesh.order",
+                    name);
+  for (size_t e = 0; e < (*mesh)->element_count; e++)
+    if ((*mesh)->kinds[e] != VSC_TET) return vsc_mesh_cut(mesh, name, error);
+  return VSC_OK;
 }
 
 // Each tuple of an array on nodes, and behind them the means of the edges' ends.
@@ -109,21 +106,27 @@ static vsc_mesh *raised_mesh(const vsc_mesh *from, const vsc_edges *edges)
 
 vsc_status vsc_mesh_raise(vsc_mesh **mesh, const char *name, vsc_error *error)
 {
-  const vsc_mesh *from = *mesh;
   vsc_edges edges;
-  if (vsc_mesh_is_quadratic(from)) return VSC_OK;
-  vsc_status status = check_kinds(from, name, error);
+  if (vsc_mesh_is_quadratic(*mesh)) return VSC_OK;
+  const vsc_mesh *given = *mesh;
+  vsc_status status = make_tets(mesh, name, error);
+  const vsc_mesh *from = *mesh;
+  const bool cut = from != given;
   if (status == VSC_OK) status = vsc_edges_list(from, &edges, error);
   if (status != VSC_OK) return status;
   vsc_mesh *to = raised_mesh(from, &edges);
   vsc_edges_free(&edges);
   if (to == NULL) return vsc_fail_memory(error, "the quadratic mesh");
   status = vsc_mesh_clean(to, name, error);
+  const size_t loose = to->report.loose_triangles;
+  if (status == VSC_OK && cut && loose > 0)
+    status = vsc_fail(error, VSC_INPUT,
+                      "%s: %zu of its triangles lie across the cuts of its elements into tetrahedra for mesh.order: 2: mesh "
+                      "with tetrahedra, or leave out mesh.order", name, loose);
   if (status != VSC_OK) {
     vsc_mesh_free(to);
     return status;
   }
-  const size_t loose = to->report.loose_triangles;
   to->report = from->report;
   to->report.loose_triangles += loose;
   vsc_mesh_free(*mesh);

@@ -13,11 +13,12 @@ typedef struct vsc_curved_def {
   double radii[3];   // mm, along x, y, z
 } vsc_curved_def;
 
-// Replaces a clean mesh of linear tets by one of quadratic tets with straight edges: its nodes, then one
-// in the middle of each edge, in the order of vsc_edges_list. Node arrays become the mean of the edge's
+// Replaces a clean mesh of linear elements by one of quadratic tets with straight edges: other kinds are cut into tets
+// first (vsc_mesh_cut); its nodes, then one in the middle of each edge, in the order of vsc_edges_list. Node arrays become the mean of the edge's
 // ends there (which vsc_select_nodes does not select by), arrays on elements and triangles stay, and so does
 // element_source; node_source goes on behind the file's last point. A quadratic mesh stays as it is. VSC_INPUT,
-// with `name` (a file) before it, for elements of other kinds and for a surface. After a failure *mesh is what it was.
+// with `name` (a file) before it, for a surface, for elements that cannot be cut, and for triangles across the cuts. After a failure
+// *mesh may have been cut but is whole.
 vsc_status vsc_mesh_raise(vsc_mesh **mesh, const char *name, vsc_error *error);
 
 // Moves the middles of the edges of a surface of a quadratic mesh onto an ellipsoid, along its gradient;

@@ -17,6 +17,12 @@ enum { VSC_MOST_TETS = 8 };
 // negative volume.
 int vsc_mesh_split(const vsc_mesh *mesh, size_t element, uint32_t tets[VSC_MOST_TETS][4]);
 
+// Replaces a clean mesh of linear elements by one of their tets (vsc_mesh_split): nodes, triangles, their arrays and sources
+// stay, a tet has its element's source and data. Of elements whose faces are no planes the tets fill a little more or less.
+// Triangles that do not fit the cut faces stay, too: vsc_mesh_raise refuses them. VSC_INPUT, with `name` (a file) before
+// it, for an element that is bent so much that a tet would be inside out. After a failure *mesh is what it was.
+vsc_status vsc_mesh_cut(vsc_mesh **mesh, const char *name, vsc_error *error);
+
 // A face of an element (places among `corners`; face[3] < 0: a triangle) as triangles that turn like
 // it: a quadrilateral is cut from its corner with the smallest number. Returns how many.
 int vsc_face_cut(const uint32_t *corners, const int face[4], uint32_t triangles[2][3]);
