@@ -146,12 +146,22 @@ void vsc_state_free(vsc_state *state)
   vsc_free(state);
 }
 
+static bool is_held(const vsc_model *model, size_t node)
+{
+  const double *inverse = model->inverse_mass + 4 * node;
+  return inverse[0] == 0 && inverse[1] == 0 && inverse[2] == 0;
+}
+
 size_t vsc_state_find_bad(const vsc_model *model, const vsc_state *state)
 {
+  size_t bad = model->node_count;
   for (size_t n = 0; n < model->node_count; n++)
-    for (int i = 0; i < 3; i++)
-      if (!isfinite(state->x[4 * n + i]) || !isfinite(state->v[4 * n + i])) return n;
-  return model->node_count;
+    for (size_t i = 0; i < 3; i++) {
+      if (isfinite(state->x[4 * n + i]) && isfinite(state->v[4 * n + i])) continue;
+      if (!is_held(model, n)) return n;
+      if (bad == model->node_count) bad = n;
+    }
+  return bad;
 }
 
 const char *vsc_name_node(const vsc_model *model, size_t node, char *text, size_t size)

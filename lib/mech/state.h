@@ -140,7 +140,8 @@ bool vsc_state_has_former(const vsc_model *model, bool velocities);
 // The number of pairs of an obstacle and a node that it stops; 0 for explicit steps, which have no multipliers.
 size_t vsc_state_contacts(const vsc_model *model);
 
-// The first node whose position or velocity is not finite, or node_count.
+// The first node whose position or velocity is not finite, or node_count. One that is held, to which that can only have
+// come from others, where there is no other.
 size_t vsc_state_find_bad(const vsc_model *model, const vsc_state *state);
 
 enum { VSC_NODE_TEXT = 96 };  // room for a node's name and place
