@@ -131,9 +131,11 @@ static void report(const vsc_run_result *result)
       result->series, result->simulated, result->steps, result->wall_seconds, result->cpu_seconds,
       1e-6 * result->updates_per_second, result->frames);
   if (result->repeated > 0)
-    printf("%.0f times a stretch was gone again with shorter steps until its energy balanced\n", result->repeated);
+    printf("%.0f times a stretch was gone again with shorter steps: energy did not balance, or elements turned inside out\n",
+           result->repeated);
   if (result->most_inverted > 0)
-    printf("up to %.0f elements were inside out (inverted_elements in signals.csv)\n", result->most_inverted);
+    printf("up to %.0f elements were inside out, %.0f in the end (inverted_elements in signals.csv)\n",
+           result->most_inverted, result->inverted);
   if (result->repeats)
     printf("cycle %.0f repeats the one before to %.2g: stopped there\n", result->cycles,
            result->cycle_difference);

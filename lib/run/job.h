@@ -32,7 +32,12 @@ typedef struct vsc_job {
   double begun_seconds;   // wall clock until the first step could be done, without output
   double output_seconds;  // wall clock that the run has waited for rows, frames and checkpoints
   double converged_rows;  // of convergence.csv so far
-  double most_inverted;  // largest number of elements with J <= 0 at any row
+  double most_inverted;  // largest number of elements with J <= 0 at any look
+  double inverted_element, inverted_time;  // the first of them, in the mesh, and when, ms; where there was one
+  double inverted_before;  // as many had J <= 0 when the stretch under way began
+  bool heeds;              // more of them end the stretch: it is to be gone again
+  bool inverts;            // that has happened in it
+  double vain;             // stretches in a row that shorter steps have not saved from it, since there were none
   double repeated;       // how often a stretch was gone again with shorter steps
   double calm;           // stretches since that went well with the shorter ones
   double most_continued;  // largest number of frames beyond a law's largest exponent at any row
@@ -84,6 +89,14 @@ uint64_t vsc_job_hash(const vsc_job *job);
 vsc_status vsc_job_make_good(vsc_job *job, vsc_error *error);
 void vsc_job_keep_good(vsc_job *job);
 void vsc_job_go_back(vsc_job *job);
+
+// Takes the elements that the last look has found inside out into most_inverted, the first of all with place and time.
+void vsc_job_count_inverted(vsc_job *job);
+
+// What is suspicious of the run, and what to do, into result->warning: energy that implicit steps have made, frames
+// beyond the largest exponent of their law, elements that were inside out (how many, where it began). Nothing where there
+// is nothing.
+void vsc_job_warn(const vsc_job *job, vsc_run_result *result);
 
 // Writes DIRECTORY/summary.json; `failure` is NULL for a run that has reached its end.
 vsc_status vsc_job_summarize(const vsc_job *job, const vsc_run_result *result, const char *failure,

@@ -9,7 +9,7 @@
 #include "run/prestress.h"
 
 // Scalars of a checkpoint, in the order of list_scalars.
-enum { CLOCK = 0, LIMIT = 2, WORKS = 10, WATCH = 15, SCALARS = 27, BLOCKS = 28, UNLOADED = 3 };
+enum { CLOCK = 0, LIMIT = 2, WORKS = 10, WATCH = 15, SCALARS = 30, BLOCKS = 28, UNLOADED = 3 };
 
 static void list_scalars(vsc_job *job, double *places[SCALARS])
 {
@@ -25,7 +25,8 @@ static void list_scalars(vsc_job *job, double *places[SCALARS])
       &ledger->active,    &ledger->pressure, &ledger->dissipated, &ledger->start, &ledger->calls,  // WORKS
       &watch->rows,       &watch->balance, &watch->energy_scale, &job->most_inverted,  // WATCH
       &job->most_continued, &job->repeated, &job->cycle.stroke, &job->cycle.speed,
-      &job->cycle.ended,  &job->cycle.difference, &limit->caution, &job->calm};
+      &job->cycle.ended,  &job->cycle.difference, &limit->caution, &job->calm,
+      &job->inverted_element, &job->inverted_time, &job->vain};
   memcpy(places, list, sizeof list);
 }
 
@@ -126,7 +127,7 @@ static void list_blocks(vsc_job *job, double scalars[SCALARS], vsc_block blocks[
       {"time_and_steps", "ms, 1", LIMIT - CLOCK, 1, scalars + CLOCK},
       {"step_limit", "1/ms^2, ms, ms, ms, 1, ms, ms, ms", WORKS - LIMIT, 1, scalars + LIMIT},
       {"works", "uJ, uJ, uJ, uJ, 1", WATCH - WORKS, 1, scalars + WORKS},
-      {"watch", "1, uJ, uJ, 1, 1, 1, mm, mm/ms, 1, 1, 1, 1", SCALARS - WATCH, 1, scalars + WATCH},
+      {"watch", "1, uJ, uJ, 1, 1, 1, mm, mm/ms, 1, 1, 1, 1, 1, ms, 1", SCALARS - WATCH, 1, scalars + WATCH},
       {"last_cycle", "mm, mm/ms", job->cycle.kept != NULL ? 2 * nodes : 0, 4, job->cycle.kept},
       {"linear_solver", "1, mN/mm, 1, 1, 1, 1", past, 1, linear},
       {"factorized_matrix", "mN/mm", factorized, 1, matrix},

@@ -3,7 +3,6 @@
 
 #include <errno.h>
 #include <math.h>
-#include <stdarg.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -11,8 +10,6 @@
 #include "base/mem.h"
 #include "base/parallel.h"
 #include "io/checkpoint.h"
-#include "model/law_constants.h"
-#include "model/law_exponential.h"
 #include "run/events.h"
 #include "run/job.h"
 #include "run/prestress.h"
@@ -22,6 +19,7 @@
 #define TURNS 4           // how often a way is gone again
 #define CALM 16           // good looks after which shorter steps become longer again
 #define LEAST_CAUTION 0x1p-6
+#define MOST_VAIN 8       // stretches in a row that are gone again although elements turn inside out in shorter steps, too
 
 void vsc_run_name(const char *file, char *name, size_t size)
 {
@@ -170,7 +168,12 @@ static vsc_status resume(vsc_job *job, vsc_error *error)
 static vsc_status observe(vsc_job *job, vsc_error *error)
 {
   const vsc_status status = vsc_watch_observe(job->problem, job->state, job->watch, error);
-  job->most_inverted = fmax(job->most_inverted, job->watch->totals.inverted);
+  const double inverted = job->watch->totals.inverted;
+  if (status == VSC_OK && job->heeds && inverted > job->inverted_before) {
+    job->inverts = true;
+    return vsc_fail(error, VSC_NUMERICAL, "at %.6g ms %.0f elements are inside out", job->state->time, inverted);
+  }
+  vsc_job_count_inverted(job);
   job->most_continued = fmax(job->most_continued, job->watch->totals.continued);
   if (status == VSC_OK) vsc_job_keep_good(job);
   return status;
@@ -268,20 +271,46 @@ static void grow_calm(vsc_job *job)
   job->calm = 0;
 }
 
+// Where elements turn inside out in steps of full length, shorter ones are tried, unless they have been of no use.
+static void heed_inverted(vsc_job *job)
+{
+  const vsc_model *model = job->problem->model;
+  job->inverted_before = job->watch->totals.inverted;
+  job->inverts = false;
+  job->heeds = model->solve.kind == VSC_SOLVE_EXPLICIT && model->step == 0 && job->state->limit.caution == 1 &&
+               job->vain < MOST_VAIN;
+}
+
+// Behind a stretch before which shorter steps were tried `vain` times in a row for nothing: when they turn elements inside
+// out, too, it is the load that does, and if that was all why they were taken (`only`) they need not stay so.
+static void judge_inverted(vsc_job *job, double vain, bool only)
+{
+  const double inverted = job->watch->totals.inverted;
+  const bool no_use = job->inverts && inverted > job->inverted_before;
+  job->heeds = false;
+  job->vain = inverted == 0 || (job->inverts && !no_use) ? 0 : no_use ? vain + 1 : vain;
+  if (no_use && only) job->state->limit.caution = 1;
+}
+
 // To the next look. When energy does not balance there, because loads or vibrations have changed much
 // since the last look, the same way is gone again with closer looks, then with steps of a half, a quarter,
 // an eighth of their length and looks closer still, and so it is when numbers are no longer finite; what
-// fails then is coming apart, but for what supports do that start or stop at once.
+// fails then is coming apart, but for what supports do that start or stop at once. Where elements turn inside out it
+// is gone again once, in steps of half their length.
 static vsc_status go_to_look(vsc_job *job, double time, vsc_error *error)
 {
   const vsc_model *model = job->problem->model;
-  const double start = job->state->time, repeated = job->repeated, usual = job->state->limit.caution;
+  const double start = job->state->time, repeated = job->repeated, usual = job->state->limit.caution, vain = job->vain;
+  heed_inverted(job);
   vsc_status status = go_to(job, time, error);
   if (model->solve.kind != VSC_SOLVE_EXPLICIT) return status;
   const int turns = model->step > 0 ? 1 : TURNS;
-  for (int turn = 0; status == VSC_NUMERICAL && turn < turns; turn++) {
+  const int first = job->inverts ? 1 : 0;
+  int turn = first;
+  for (; status == VSC_NUMERICAL && turn < turns; turn++) {
     vsc_job_go_back(job);
     vsc_watch_resume(job->problem, job->state, job->watch);
+    job->heeds = job->heeds && turn == 0;
     job->state->limit.caution = fmax(ldexp(usual, -turn), LEAST_CAUTION);
     job->repeated = repeated + turn;
     job->calm = 0;
@@ -289,6 +318,7 @@ static vsc_status go_to_look(vsc_job *job, double time, vsc_error *error)
     status = go_closer(job, start, time, CLOSER << turn, error);
     job->watch->settles = false;
   }
+  if (status == VSC_OK) judge_inverted(job, vain, first == 1 && turn == 2);
   if (status == VSC_OK) grow_calm(job);
   return status;
 }
@@ -350,45 +380,6 @@ static vsc_status advance(vsc_job *job, double stop, vsc_error *error)
   return status;
 }
 
-// Adds a sentence to the warning of the result.
-__attribute__((format(printf, 2, 3))) static void warn(vsc_run_result *result, const char *format, ...)
-{
-  const size_t begun = strlen(result->warning);
-  va_list arguments;
-  va_start(arguments, format);
-  if (begun > 0 && begun + 3 < sizeof result->warning) strcpy(result->warning + begun, "; ");
-  vsnprintf(result->warning + strlen(result->warning), sizeof result->warning - strlen(result->warning), format, arguments);
-  va_end(arguments);
-}
-
-// Nobody goes back where implicit steps make energy, as looks let explicit ones do: it is told.
-static void warn_of_energy(const vsc_job *job, vsc_run_result *result)
-{
-  const double made = vsc_watch_energy_made(job->watch);
-  if (job->problem->model->solve.kind != VSC_SOLVE_IMPLICIT || made <= VSC_MOST_ENERGY_MADE) return;
-  warn(result,
-       "by the energy balance implicit steps have made %.0f %% of the largest energy or work: take shorter steps "
-       "(time.step, solver.accuracy), or scheme: generalized_alpha with a smaller rho; where loads act between rare "
-       "rows, which the balance does not see, closer rows (output.signals)", 100 * made);
-}
-
-// Stresses that the law as it is written does not have.
-static void warn_of_exponents(const vsc_job *job, vsc_run_result *result)
-{
-  const vsc_model *model = job->problem->model;
-  char names[160] = "";
-  if (job->most_continued == 0) return;
-  for (size_t m = 0; m < model->material_count; m++) {
-    const size_t length = strlen(names);
-    if (model->materials[m].element_count > 0 && vsc_law_has_exponent(model->materials[m].law))
-      snprintf(names + length, sizeof names - length, "%s%s", length > 0 ? ", " : "", model->materials[m].name);
-  }
-  warn(result,
-       "material %s: %.0f frames of elements at once were strained beyond exponent %g of the law, from where it goes on as a "
-       "polynomial: stresses there are too low; take smaller loads, or constants that are meant for such strains",
-       names, job->most_continued, VSC_LARGEST_EXPONENT);
-}
-
 static void fill_result(const vsc_job *job, vsc_run_result *result)
 {
   result->steps = job->state->steps - job->start_steps;
@@ -405,10 +396,10 @@ static void fill_result(const vsc_job *job, vsc_run_result *result)
   result->repeats = repeats(job);
   result->repeated = job->repeated;
   result->most_inverted = job->most_inverted;
+  result->inverted = job->watch->totals.inverted;
   result->frames = job->pvd ? vsc_pvd_count(job->pvd) : 0;  // the writer has finished: a checkpoint was saved
   vsc_job_path(job, ".pvd", result->series);
-  warn_of_energy(job, result);
-  warn_of_exponents(job, result);
+  vsc_job_warn(job, result);
 }
 
 // Leaves the last good state and the reason; what fails now on top of that is not told.
@@ -418,6 +409,7 @@ static void save_failure(vsc_job *job, vsc_run_result *result, const vsc_error *
   const double repeated = job->repeated;
   vsc_job_go_back(job);
   job->repeated = repeated;
+  vsc_watch_resume(job->problem, job->state, job->watch);
   if (job->frames == 0 || fabs(job->last_frame - job->state->time) > 1e-6) vsc_job_write_frame(job, NULL);
   vsc_job_save(job, NULL);
   fill_result(job, result);

@@ -37,6 +37,7 @@ typedef struct vsc_run_result {
   size_t frames;              // in the series now
   double repeated;            // how often a stretch was gone again with shorter steps, of all calls
   double most_inverted;       // most elements that were inside out at the same time, of all calls
+  double inverted;            // that are in the end
   double cycles;              // that were watched so far (time.cycle)
   double cycle_difference;    // of the last from the one before (run/cycle.h)
   bool interrupted;           // the run stopped before stop_time and its end because it was told to
