@@ -71,7 +71,7 @@ static void pictures_of_tables(void **state)
   must("$V plot --errors error.csv -o error.png");
   assert_false(load_text("error.png", second, sizeof second) == length && memcmp(first, second, length) == 0);
   save_text("stability.csv", "stress,law,element,method,outcome\nflat,springs,tets,explicit,survives\n"
-                             "flat,springs,hexes,implicit,stops\n");
+                             "flat,springs,hexes,implicit,stops\nflat,springs,hexes,coupled,inside out\n");
   // a full disk leaves nothing behind
   assert_int_equal(shell("ulimit -f 1; $V plot --errors error.csv -o full.png >/dev/null"), 4);
   assert_int_equal(shell("ls full.png*"), 2);
@@ -119,7 +119,8 @@ static void starts_are_timed(void **state)
   assert_non_null(strstr(complained, "log.txt says why"));
 }
 
-// Two cases from the list: one that the tissue survives, one that stops with a message that names all it should.
+// Cases from the list: one that the tissue survives, one that stops with a message that names all it should, one that ends
+// with elements inside out.
 static void stresses_are_judged(void **state)
 {
   (void)state;
@@ -134,6 +135,10 @@ static void stresses_are_judged(void **state)
   load_text("judged/stability.csv", table, sizeof table);
   assert_non_null(strstr(table, "\ncrush,springs,tets,equilibrium,stops,3,"));
   assert_non_null(strstr(table, "turn inside out"));
+  must("$V bench stability --only crush-springs-hexes-coupled -t 1 -o judged");
+  load_text("judged/stability.csv", table, sizeof table);
+  assert_non_null(strstr(table, "\ncrush,springs,hexes,coupled,inside out,0,"));
+  assert_non_null(strstr(table, " elements inside out in the end\""));
   assert_int_equal(shell("$V bench stability --only nonsense -o judged"), 2);
   assert_non_null(strstr(complained, "no case holds 'nonsense'; --list names them"));
 }

@@ -44,7 +44,7 @@ vsc_status vsc_stability_write(const vsc_stability_row *rows, size_t count, cons
 static void say_line(const char *name, const size_t of[VSC_VERDICTS], const char *what)
 {
   printf("  %-12s", name);
-  for (int v = 0; v < VSC_VERDICTS; v++) printf(" %9zu", of[v]);
+  for (int v = 0; v < VSC_VERDICTS; v++) printf(" %10zu", of[v]);
   printf("  %s\n", what);
 }
 
@@ -130,14 +130,14 @@ void vsc_stability_say(const vsc_stability_row *rows, size_t count)
 {
   static const char *const all[] = {"all"};
   printf("  %-12s", "");
-  for (int v = 0; v < VSC_VERDICTS; v++) printf(" %9s", vsc_verdict_names[v]);
+  for (int v = 0; v < VSC_VERDICTS; v++) printf(" %10s", vsc_verdict_names[v]);
   printf("\n");
   say_counts(rows, count, 0, vsc_stress_count, NULL);
   say_counts(rows, count, 1, VSC_STRESS_METHODS, vsc_stress_methods);
   say_counts(rows, count, 2, vsc_stress_law_count, vsc_stress_laws);
   say_counts(rows, count, 3, vsc_stress_kind_count, vsc_stress_kinds);
   say_counts(rows, count, 4, 1, all);
-  for (vsc_verdict_kind kind = VSC_REFUSED; kind < VSC_VERDICTS; kind++) {
+  for (vsc_verdict_kind kind = VSC_INSIDE_OUT; kind < VSC_VERDICTS; kind++) {
     printf("\n%s:\n", vsc_verdict_names[kind]);
     say_messages(rows, count, kind);
   }

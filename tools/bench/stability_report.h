@@ -14,7 +14,7 @@ typedef struct vsc_stability_row {
 vsc_status vsc_stability_write(const vsc_stability_row *rows, size_t count, const char *folder, vsc_error *error);
 
 // The counts of outcomes by stress and method, the cases that are wrong with the reason, each message of those that
-// were refused or stopped once, and the distribution of claimed over true steps, on stdout.
+// end inside out, were refused or stopped once, and the distribution of claimed over true steps, on stdout.
 void vsc_stability_say(const vsc_stability_row *rows, size_t count);
 
 // Whether nothing speaks against the step that is claimed: it is not above the true limit, small velocities stay

@@ -19,7 +19,7 @@
 #define MOST_RATIO 1e3
 
 const char *const vsc_verdict_names[VSC_VERDICTS] = {
-    [VSC_SURVIVES] = "survives", [VSC_REFUSED] = "refused", [VSC_STOPS] = "stops",
+    [VSC_SURVIVES] = "survives", [VSC_INSIDE_OUT] = "inside out", [VSC_REFUSED] = "refused", [VSC_STOPS] = "stops",
     [VSC_UNENDED] = "unended",   [VSC_WRONG] = "wrong"};
 
 __attribute__((format(printf, 2, 3))) static void call_wrong(vsc_verdict *verdict, const char *format, ...)
@@ -38,7 +38,7 @@ static bool holds_one_of(const char *text, const char *const *words)
   return false;
 }
 
-// Whether a failure names time, element or node, place and a remedy.
+// What of time, element or node, place, remedy and, where the balance has failed, energy a failure does not name.
 static const char *missing_in(const char *text)
 {
   static const char *const things[] = {"element ", "node ", NULL};
@@ -46,6 +46,7 @@ static const char *missing_in(const char *text)
   if (strstr(text, "at ") == NULL || strstr(text, " ms") == NULL) return "time";
   if (!holds_one_of(text, things)) return "element or node";
   if (strstr(text, ") mm") == NULL) return "place";
+  if (strstr(text, "the energy balance ") != NULL && strstr(text, " most in the ") == NULL) return "energy";
   return holds_one_of(text, remedies) ? NULL : "remedy";
 }
 
@@ -111,6 +112,15 @@ static void judge_signals(const vsc_stress_case *at, const vsc_signals *table, v
   judge_balance(at, table, verdict);
 }
 
+// Elements that end inside out are no survival like others, and have to be told.
+static void judge_inverted(const char *run, vsc_verdict *verdict)
+{
+  verdict->kind = VSC_INSIDE_OUT;
+  snprintf(verdict->why, sizeof verdict->why, "%.0f elements inside out in the end", verdict->inverted);
+  if (vsc_results_number(run, "inverted_elements") != verdict->inverted)
+    call_wrong(verdict, "the summary does not tell of %.0f elements inside out", verdict->inverted);
+}
+
 void vsc_judge(const vsc_stress_case *at, const char *folder, vsc_status status, const vsc_error *error,
                vsc_verdict *verdict)
 {
@@ -142,6 +152,7 @@ void vsc_judge(const vsc_stress_case *at, const char *folder, vsc_status status,
   }
   verdict->kind = status == VSC_OK ? VSC_SURVIVES : VSC_STOPS;
   judge_signals(at, table, verdict);  // of a run that stops: the rows before
+  if (verdict->kind == VSC_SURVIVES && verdict->inverted > 0) judge_inverted(run, verdict);
   vsc_signals_free(table);
   const char *missing = status == VSC_NUMERICAL ? missing_in(error->text) : NULL;
   if (missing != NULL) call_wrong(verdict, "no %s in: %.500s", missing, error->text);

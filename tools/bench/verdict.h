@@ -7,8 +7,10 @@
 
 typedef enum vsc_verdict_kind {
   VSC_SURVIVES,  // to the end, with finite numbers and an energy that balances
+  VSC_INSIDE_OUT,  // the same, but elements are inside out then, as the summary tells
   VSC_REFUSED,   // before the first step, with a message that names what is wrong
-  VSC_STOPS,     // numerically, with a message that names element or node, place, time and remedy
+  VSC_STOPS,     // numerically, with a message that names element or node, place, time and remedy, and the energy where
+                 // that did not balance
   VSC_UNENDED,   // still running after --limit seconds
   VSC_WRONG,     // anything else
   VSC_VERDICTS,

@@ -17,12 +17,12 @@ typedef struct names {
   char text[MOST_NAMES][VSC_NAME];
 } names;
 
-enum { SURVIVES, REFUSED, STOPS, UNENDED, WRONG, OUTCOMES };
-static const char *const outcome_names[OUTCOMES] = {"survives", "refused", "stops", "unended", "wrong"};
-static const char *const outcome_texts[OUTCOMES] = {"survives, energy balances", "refused at once", "stops with a message",
+enum { SURVIVES, INSIDE_OUT, REFUSED, STOPS, UNENDED, WRONG, OUTCOMES };
+static const char *const outcome_names[OUTCOMES] = {"survives", "inside out", "refused", "stops", "unended", "wrong"};
+static const char *const outcome_texts[OUTCOMES] = {"survives, energy balances", "survives, elements inside out", "refused at once", "stops with a message",
                                                     "still running at the limit", "silently wrong"};
 static const double colours[OUTCOMES][3] = {
-    {0.55, 0.80, 0.60}, {0.72, 0.78, 0.90}, {0.97, 0.84, 0.47}, {0.75, 0.75, 0.78}, {0.84, 0.19, 0.22}};
+    {0.55, 0.80, 0.60}, {0.36, 0.58, 0.62}, {0.72, 0.78, 0.90}, {0.97, 0.84, 0.47}, {0.75, 0.75, 0.78}, {0.84, 0.19, 0.22}};
 
 typedef struct outcomes {
   names stresses, kinds, methods;
