@@ -90,6 +90,9 @@ VSC_INLINE vsc_wide vsc_where(vsc_wide_mask mask, vsc_wide a)
   return (vsc_wide)(mask & (vsc_wide_mask)a);
 }
 
+// A vector that is no longer than this has no direction.
+#define VSC_NO_LENGTH 1e-6
+
 // 1/a where `a` is above `least`, at least 0, and 0 elsewhere, where nothing is divided.
 VSC_INLINE vsc_wide vsc_wide_inverse(vsc_wide a, double least)
 {

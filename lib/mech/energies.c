@@ -13,7 +13,7 @@ VSC_INLINE vsc_wide length_of(vsc_wide3 a)
 
 VSC_INLINE vsc_wide per_length(vsc_wide number, vsc_wide length)
 {
-  const vsc_wide_mask long_enough = length > VSC_SHORTEST_AXIS;
+  const vsc_wide_mask long_enough = length > VSC_NO_LENGTH;
   return vsc_where(long_enough, number / vsc_select(long_enough, length, vsc_splat(1)));
 }
 
@@ -31,15 +31,14 @@ VSC_INLINE void add_more_axes(const vsc_model *model, const vsc_material *materi
     const vsc_axis *axis = &model->axes[material->first_axis + d];
     const vsc_wide3 way = along_axis(axis->direction, g);
     const vsc_wide length = length_of(way), strain = length - 1;
-    const vsc_wide speed = per_length(vsc_wide_dot(along_axis(axis->direction, rate), way), length);
+    const vsc_wide speed = vsc_wide_dot(along_axis(axis->direction, rate), way) / vsc_no_shorter(length);
     sum->axial += 0.5 * axis->modulus * V * strain * strain;
     sum->dissipation += axis->damping * V * speed * speed;
   }
   for (size_t d = 0; d < material->pair_count; d++) {
     const vsc_pair *pair = &model->pairs[material->first_pair + d];
     const vsc_wide3 first = along_axis(pair->first, g), second = along_axis(pair->second, g);
-    const vsc_wide c =
-        per_length(per_length(vsc_wide_dot(first, second), length_of(first)), length_of(second));
+    const vsc_wide c = vsc_wide_dot(first, second) / vsc_no_shorter(length_of(first)) / vsc_no_shorter(length_of(second));
     sum->angular += 0.5 * pair->modulus * V * (c - pair->cosine) * (c - pair->cosine);
   }
 }

@@ -100,7 +100,7 @@ VSC_INLINE vsc_wide3 wide_zero(void)
 VSC_INLINE vsc_wide length_of(vsc_wide3 a, vsc_wide *inverse)
 {
   const vsc_wide length = vsc_wide_sqrt(vsc_wide_dot(a, a));
-  *inverse = vsc_wide_inverse(length, VSC_SHORTEST_AXIS);
+  *inverse = vsc_wide_inverse(length, VSC_NO_LENGTH);
   return length;
 }
 
@@ -171,9 +171,8 @@ VSC_INLINE void add_more_axes(const vsc_patch_work *work, vsc_wide share, const 
     const vsc_wide part[3] = {vsc_splat(axis->direction[0]), vsc_splat(axis->direction[1]),
                               vsc_splat(axis->direction[2])};
     const vsc_wide3 along = vsc_wide_combine(part[0], g[0], part[1], g[1], part[2], g[2]);
-    vsc_wide inverse;
-    const vsc_wide length = length_of(along, &inverse);
-    const vsc_wide3 u = vsc_wide_scale(inverse, along);
+    const vsc_wide length = vsc_wide_sqrt(vsc_wide_dot(along, along));
+    const vsc_wide3 u = vsc_wide_scale(1.0 / vsc_no_shorter(length), along);
     vsc_wide force = axis->modulus * (length - 1);
     if (damping) {
       const vsc_wide3 change =
@@ -191,7 +190,7 @@ VSC_INLINE void add_more_axes(const vsc_patch_work *work, vsc_wide share, const 
       const double *way = i == 0 ? pair->first : pair->second;
       const vsc_wide3 along = vsc_wide_combine(vsc_splat(way[0]), g[0], vsc_splat(way[1]), g[1],
                                                vsc_splat(way[2]), g[2]);
-      length_of(along, &inverse[i]);
+      inverse[i] = 1.0 / vsc_no_shorter(vsc_wide_sqrt(vsc_wide_dot(along, along)));
       u[i] = vsc_wide_scale(inverse[i], along);
     }
     const vsc_wide c = vsc_wide_dot(u[0], u[1]), w = share * pair->modulus * (c - pair->cosine);

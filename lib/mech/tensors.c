@@ -99,7 +99,7 @@ static void stress_on_frame(const vsc_law_input *in, const vsc_wide3 g[3], const
 static vsc_wide3 unit_of(vsc_wide3 a)
 {
   const vsc_wide length = vsc_wide_sqrt(vsc_wide_dot(a, a));
-  return vsc_wide_scale(vsc_wide_inverse(length, VSC_SHORTEST_AXIS), a);
+  return vsc_wide_scale(vsc_wide_inverse(length, VSC_NO_LENGTH), a);
 }
 
 // The axes as seen in the deformed fibre frame: f along g_f, s in the plane of g_f and g_s, n across it.

@@ -30,12 +30,12 @@ VSC_INLINE vsc_sheet_axes vsc_sheet_axes_of(const vsc_wide3 g[2])
   for (int a = 0; a < 2; a++) {
     axes.g[a] = g[a];
     axes.length[a] = vsc_wide_sqrt(vsc_wide_dot(g[a], g[a]));
-    axes.inverse[a] = vsc_wide_inverse(axes.length[a], VSC_SHORTEST_AXIS);
+    axes.inverse[a] = vsc_wide_inverse(axes.length[a], VSC_NO_LENGTH);
     axes.u[a] = vsc_wide_scale(axes.inverse[a], g[a]);
   }
   axes.normal = vsc_wide_cross(g[0], g[1]);
   axes.J = vsc_wide_sqrt(vsc_wide_dot(axes.normal, axes.normal));
-  axes.normal = vsc_wide_scale(vsc_wide_inverse(axes.J, VSC_SHORTEST_AXIS), axes.normal);
+  axes.normal = vsc_wide_scale(vsc_wide_inverse(axes.J, VSC_NO_LENGTH), axes.normal);
   axes.c = vsc_wide_dot(axes.u[0], axes.u[1]);
   return axes;
 }
@@ -81,7 +81,7 @@ VSC_INLINE void vsc_sheet_tangent(const vsc_sheet_moduli *law, const vsc_sheet_a
   const vsc_wide square[2] = {axes->length[0] * axes->length[0], axes->length[1] * axes->length[1]};
   const vsc_wide inverse[2] = {axes->inverse[0] * axes->inverse[0], axes->inverse[1] * axes->inverse[1]};
   const vsc_wide gamma = vsc_wide_dot(axes->g[0], axes->g[1]), both = inverse[0] * inverse[1];
-  const vsc_wide over = vsc_wide_inverse(axes->J, VSC_SHORTEST_AXIS);
+  const vsc_wide over = vsc_wide_inverse(axes->J, VSC_NO_LENGTH);
   const vsc_wide G = law->angular * both, spread = law->area * (1.0 - over), K = law->area * over * over * over;
   for (int a = 0; a < 2; a++) {
     const vsc_wide other = square[1 - a], shear = G * gamma * gamma * inverse[a];

@@ -16,21 +16,30 @@
 
 #include "base/wide.h"
 
-// An axis shorter than this has no direction: it is left out until it is longer.
-#define VSC_SHORTEST_AXIS 1e-6
+// Of an axis with less than this of its length at rest, direction and 1/length are g and 1 over this: they stay
+// continuous down to a point, where the axis has no direction. Angular springs, whose stiffness goes with 1/length^2,
+// would else hold a crushed body in the place by the shortness of its stable steps.
+#define VSC_SHORTEST_AXIS 1e-2
 
 // Lengths of three axes.
 typedef struct vsc_axis_lengths {
   vsc_wide length[3];   // n_a
-  vsc_wide inverse[3];  // 1/n_a (0 for an axis without direction)
+  vsc_wide inverse[3];  // 1/n_a (1/VSC_SHORTEST_AXIS for a shorter one)
 } vsc_axis_lengths;
 
 // Directions and lengths of three axes.
 typedef struct vsc_frame_axes {
-  vsc_wide3 u[3];       // unit vectors (0 for an axis without direction)
+  vsc_wide3 u[3];       // unit vectors (shorter for an axis shorter than VSC_SHORTEST_AXIS)
   vsc_wide length[3];   // n_a
-  vsc_wide inverse[3];  // 1/n_a (0 likewise)
+  vsc_wide inverse[3];  // 1/n_a (1/VSC_SHORTEST_AXIS likewise)
 } vsc_frame_axes;
+
+// n, but VSC_SHORTEST_AXIS of a shorter axis.
+VSC_INLINE vsc_wide vsc_no_shorter(vsc_wide length)
+{
+  const vsc_wide shortest = vsc_splat(VSC_SHORTEST_AXIS);
+  return vsc_select(length > shortest, length, shortest);
+}
 
 VSC_INLINE vsc_axis_lengths vsc_lengths_of(const vsc_wide3 g[3])
 {
@@ -38,14 +47,11 @@ VSC_INLINE vsc_axis_lengths vsc_lengths_of(const vsc_wide3 g[3])
   vsc_wide safe[3];
   for (int a = 0; a < 3; a++) {
     lengths.length[a] = vsc_wide_sqrt(vsc_wide_dot(g[a], g[a]));
-    const vsc_wide shortest = vsc_splat(VSC_SHORTEST_AXIS);
-    safe[a] = vsc_select(lengths.length[a] > shortest, lengths.length[a], shortest);
+    safe[a] = vsc_no_shorter(lengths.length[a]);
   }
   // one division for the three inverses
   const vsc_wide product = 1.0 / (safe[0] * safe[1] * safe[2]);
-  for (int a = 0; a < 3; a++)
-    lengths.inverse[a] = vsc_where(lengths.length[a] > VSC_SHORTEST_AXIS,
-                                   product * safe[(a + 1) % 3] * safe[(a + 2) % 3]);
+  for (int a = 0; a < 3; a++) lengths.inverse[a] = product * safe[(a + 1) % 3] * safe[(a + 2) % 3];
   return lengths;
 }
 
