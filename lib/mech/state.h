@@ -18,6 +18,7 @@ typedef struct vsc_limit {
   double interval;    // how long the estimate is trusted, ms
   double refreshes;   // estimates so far
   double first;       // the step that was allowed at the start, ms
+  double rest;        // that of the body at rest, where it starts elsewhere (not kept by checkpoints); else 0, ms
   double least;       // the shortest that any estimate has allowed, ms
   double span;        // time gone through in steps that were allowed when they were taken, ms
   double caution;     // part of the allowed step that is taken: 1, but where energy did not balance with that

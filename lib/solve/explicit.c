@@ -19,8 +19,10 @@
 #define SHORTEST_TRUST 0.25
 #define LONGEST_TRUST 4.0
 enum { TRUSTED_STEPS = 128 };  // or as long as these take: an estimate costs as much as five
-// A stable step below this part of the first one belongs to a body that is torn or crushed.
+// A stable step below this part of the first one, or of that at rest, belongs to a body that is torn or crushed.
 #define COLLAPSE 1e-3
+// A start is given the time until its first estimate to come back: not below this, where that would take for ever.
+#define COLLAPSE_AT_START 1e-4
 enum { WARM_ITERATIONS = 4, NODES_PER_PIECE = 256, MOST_TURNS = 20 };
 
 typedef struct motion {
@@ -214,12 +216,50 @@ static vsc_status fail_no_step(bool finite, vsc_error *error)
                   "check moduli, damping and densities, and their units");
 }
 
+// How long an estimate may be trusted, ms.
+static double longest_trust(const vsc_limit *limit)
+{
+  return fmax(LONGEST_TRUST, TRUSTED_STEPS * limit->step);
+}
+
+// The stable step of the body at rest, where the state is elsewhere: 0 where it is not. Leaves no trace in the estimate.
+static double step_at_rest(const vsc_model *model, vsc_state *state)
+{
+  const size_t bytes = 4 * model->node_count * sizeof *state->x;
+  if (memcmp(state->x, model->rest, bytes) == 0) return 0;
+  const vsc_limit before = state->limit;
+  double *x = state->x;
+  state->x = (double *)model->rest;
+  vsc_limit_refresh(model, state, state->time, vsc_limit_enough(model));
+  state->x = x;
+  const double step = state->limit.step;
+  state->limit = before;
+  memset(state->limit.mode, 0, bytes);
+  state->scratch.still_known = false;
+  return isfinite(step) ? step : 0;
+}
+
+// Fails where the stable step is below `part` of that at the start or at rest.
+static vsc_status check_collapse(const vsc_model *model, const vsc_state *state, double part, vsc_error *error)
+{
+  const vsc_limit *limit = &state->limit;
+  const double usual = fmax(limit->first, limit->rest);
+  if (isfinite(limit->eigenvalue) && !(limit->step < part * usual)) return VSC_OK;
+  char node[VSC_NODE_TEXT];
+  return vsc_fail(error, VSC_NUMERICAL,
+                  "at %.6g ms the stable step has collapsed from %.3g to %.3g ms, stiffest is what pulls at "
+                  "%s: elements are torn or crushed; take more damping or a smaller load",
+                  state->time, usual, limit->step,
+                  vsc_name_node(model, vsc_largest_node(model, limit->mode), node, sizeof node));
+}
+
 vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
 {
   if (model->solve.kind != VSC_SOLVE_EXPLICIT)
     return vsc_fail(error, VSC_INPUT, "vsc_start: the model is not to be stepped explicitly: call vsc_solve_start");
   const vsc_status ready = vsc_keep_volume_ready(model, error);
   if (ready != VSC_OK) return ready;
+  state->limit.rest = step_at_rest(model, state);
   vsc_supports_place(model, state->time, 1, state->x);
   const double busiest = busiest_time(model, state);
   vsc_limit_refresh(model, state, busiest, vsc_limit_enough(model));
@@ -249,6 +289,10 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
   state->limit.time = state->time;
   state->limit.interval = SHORTEST_TRUST;
   state->limit.first = state->limit.least = allowed;
+  const vsc_status moves = check_collapse(model, state, COLLAPSE_AT_START, error);
+  if (moves != VSC_OK) return moves;
+  // on its way back a crushed body, which may be slack now, becomes as stiff as at rest
+  if (state->limit.rest > 0) state->limit.step = fmin(state->limit.step, state->limit.rest);
   vsc_force(model, state->x, model->terms.damping ? state->v : NULL, state->time, &state->scratch,
             state->force);
   motion m = {.model = model, .state = state, .whole = true};
@@ -257,12 +301,6 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
   if (model->terms.damping) memcpy(state->past_a, state->a, 4 * model->node_count * sizeof *state->a);
   if (model->moved_count > 0) vsc_moving_start(model, state);
   return VSC_OK;
-}
-
-// How long an estimate may be trusted, ms.
-static double longest_trust(const vsc_limit *limit)
-{
-  return fmax(LONGEST_TRUST, TRUSTED_STEPS * limit->step);
 }
 
 // How long the next estimate may be trusted at most, ms: not through what loads and activity are about to change.
@@ -283,13 +321,8 @@ static vsc_status refresh_limit(const vsc_model *model, vsc_state *state, vsc_er
   if (fabs(rise) > 0.10) limit->interval = fmax(0.5 * limit->interval, SHORTEST_TRUST);
   limit->interval = fmin(fabs(rise) < 0.02 ? 2 * limit->interval : limit->interval, horizon);
   limit->time = state->time;
-  char node[VSC_NODE_TEXT];
-  if (!isfinite(limit->eigenvalue) || limit->step < COLLAPSE * limit->first)
-    return vsc_fail(error, VSC_NUMERICAL,
-                    "at %.6g ms the stable step has collapsed from %.3g to %.3g ms, stiffest is what pulls at "
-                    "%s: elements are torn or crushed; take more damping or a smaller load",
-                    state->time, limit->first, limit->step,
-                    vsc_name_node(model, vsc_largest_node(model, limit->mode), node, sizeof node));
+  const vsc_status status = check_collapse(model, state, COLLAPSE, error);
+  if (status != VSC_OK) return status;
   if (model->step > limit->step / model->safety && !model->force_step)
     return vsc_fail(error, VSC_NUMERICAL,
                     "at %.6g ms the tissue has become too stiff for time.step %.6g ms: the stable "

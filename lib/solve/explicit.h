@@ -7,7 +7,9 @@
 
 // Prepares a new state for stepping: the first estimate of the stable step, at rest and at full
 // activation (the smaller counts), and the first acceleration. Refuses (VSC_INPUT) a user's step
-// above the stable one, with both numbers, unless the model forces it. Where volumes are kept, vsc_keep_volume_ready.
+// above the stable one, with both numbers, unless the model forces it. VSC_NUMERICAL, with a node, where the
+// state is so crushed that its stable step is below 1e-4 of that at rest, which the first steps do not exceed. Where volumes
+// are kept, vsc_keep_volume_ready.
 // Where masses are coupled the model's initial velocity times its lumped masses is the momentum that the body has.
 vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error);
 
@@ -26,7 +28,8 @@ vsc_status vsc_steps(const vsc_model *model, vsc_state *state, double dt, double
 // Steps from state->time to `until` (ms) in equal steps not longer than the stable one, which is
 // re-estimated at least every 4 ms or 128 steps; with a step given by the user, in steps of just that length to
 // the first of its multiples that is not before `until`. VSC_NUMERICAL when a position or velocity is no longer
-// finite or a user's step has become unstable: the message names node, place and time.
+// finite, the stable step has fallen below a thousandth of that at the start or at rest, or a user's step has become
+// unstable: the message names node, place and time.
 vsc_status vsc_advance(const vsc_model *model, vsc_state *state, double until, vsc_error *error);
 
 #endif
