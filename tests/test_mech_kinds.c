@@ -435,6 +435,30 @@ static void only_rigid_motion_of_patches_is_free(void **state)
     }
 }
 
+// An edge's middle pushed to a fifth of the edge folds a quadratic tet at its corner, where no frame is inside out.
+static void quadratic_tets_are_inside_out_at_nodes_too(void **state)
+{
+  (void)state;
+  const vsc_material_def material = tissue_law(0);
+  random_body body;
+  vsc_totals totals;
+  kinds_open(&body, mesh_of(ALL_TETS10, 1, 3), &material, VSC_VOLUME_ELEMENT, 4);
+  double *x = numbers(3 * body.mesh->node_count);
+  memcpy(x, body.mesh->nodes, 3 * body.mesh->node_count * sizeof *x);
+  kinds_energy(&body, x, &totals);
+  assert_true(totals.inverted == 0);
+  const uint32_t *corner = vsc_mesh_corners(body.mesh, 0);
+  const double *first = body.mesh->nodes + 3 * corner[0], *second = body.mesh->nodes + 3 * corner[1];
+  for (int part = 0; part < 2; part++) {
+    for (int i = 0; i < 3; i++) x[3 * corner[4] + i] = first[i] + (part ? 0.2 : 0.3) * (second[i] - first[i]);
+    kinds_energy(&body, x, &totals);
+    assert_true(totals.J_low > 0);
+    assert_true(part ? totals.inverted >= 1 : totals.inverted == 0);
+  }
+  vsc_free(x);
+  body_close(&body);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -448,6 +472,7 @@ int main(void)
       cmocka_unit_test(volume_is_a_word_about_linear_tets),
       cmocka_unit_test(only_rigid_motion_is_free),
       cmocka_unit_test(only_rigid_motion_of_patches_is_free),
+      cmocka_unit_test(quadratic_tets_are_inside_out_at_nodes_too),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -102,6 +102,37 @@ VSC_INLINE vsc_wide add_frames(vsc_wide V, const vsc_wide3 g[3], vsc_wide_mask t
   return J;
 }
 
+// dx/dxi of quadratic tets at a point with the derivatives D of the shape functions.
+VSC_INLINE vsc_wide quadratic_ratio(double D[3][VSC_MOST_CORNERS], const vsc_wide3 at[10])
+{
+  vsc_wide3 tangent[3] = {0};
+  for (int i = 1; i < 10; i++) {
+    // seen from the first node, so that distant bodies lose no digits
+    const vsc_wide3 way = vsc_wide_minus(at[i], at[0]);
+    for (int t = 0; t < 3; t++) tangent[t] = vsc_wide_add(tangent[t], vsc_wide_scale(vsc_splat(D[t][i]), way));
+  }
+  return vsc_pack_ratio(tangent);
+}
+
+// Whether quadratic tets are inside out at a node: crushed ones may be so although their frames are not. Where one is
+// so at rest, as curved ones may be, it does not count.
+VSC_INLINE vsc_wide_mask inverted_at_nodes(const vsc_model *model, const vsc_patch *patch, size_t k, const double *x)
+{
+  const vsc_cell_kind *kind = &vsc_cells[VSC_TET10];
+  vsc_wide3 rest[10], now[10];
+  vsc_pack_corners(model, patch, vsc_pack_nodes(model, patch, k), 10, model->rest, rest);
+  vsc_pack_corners(model, patch, vsc_pack_nodes(model, patch, k), 10, x, now);
+  vsc_wide_mask inverted = {0};
+  for (int n = 0; n < 10; n++) {
+    const int ends[2] = {n < 4 ? n : kind->edges[n - 4][0], n < 4 ? n : kind->edges[n - 4][1]};
+    double xi[3], N[VSC_MOST_CORNERS], D[3][VSC_MOST_CORNERS];
+    for (int t = 0; t < 3; t++) xi[t] = 0.5 * ((ends[0] == t + 1) + (ends[1] == t + 1));
+    vsc_cell_shape(VSC_TET10, xi, N, D);
+    inverted |= (quadratic_ratio(D, rest) > 0) & (quadratic_ratio(D, now) <= 0);
+  }
+  return inverted;
+}
+
 // What the frames of one pack of cells show: volume ratios, stretches, active tension.
 VSC_INLINE void observe_frames(const observation *o, const vsc_patch *patch, size_t k, const vsc_pack_law *law,
                                vsc_wide3 (*axes)[3], lanes *sum)
@@ -126,6 +157,7 @@ VSC_INLINE void observe_frames(const observation *o, const vsc_patch *patch, siz
     const size_t frame = patch->first_frame + (k - patch->first_pack) * points + q;
     add_active(o, tension, way, V, VSC_WIDTH * frame, taken, sum);
   }
+  if (patch->family == VSC_TETS10) inverted |= taken & inverted_at_nodes(model, patch, k, o->state->x);
   sum->inverted += vsc_where(inverted, vsc_splat(1));
 }
 

@@ -27,7 +27,7 @@ typedef struct vsc_totals {
   double tension_high,
       tension_mean;    // active tension, kPa (mean by rest volume, over active materials)
   double known_volume; // rest volume of the elements with a known fibre, mm^3
-  double inverted;     // number of elements with J <= 0 in a frame
+  double inverted;     // number of elements with J <= 0 in a frame, or at a node of a quadratic tet
   double continued;    // number of frames beyond a law's largest exponent (model/law_exponential.h)
   double contact_work;   // done by moving obstacles since the start, uJ
   double contact_lost;   // in impacts and friction since the start, uJ
