@@ -54,42 +54,17 @@ void vsc_model_delays(const vsc_model *model, size_t m, double delays[2])
   }
 }
 
-// The delays of material m: `count` of them, `between` apart from `first` on, ms.
-typedef struct delays {
-  int count;
-  double first, between;
-} delays;
-
-static delays delays_of(const vsc_model *model, size_t m)
-{
-  double ends[2];
-  vsc_model_delays(model, m, ends);
-  const double between = (ends[1] - ends[0]) / (DELAYS - 1), first = model->materials[m].delay + ends[0];
-  return between > 0 ? (delays){DELAYS, first, between} : (delays){1, first, 0};
-}
-
 static double material_calm(const vsc_model *model, size_t m, double time, double most)
 {
   const vsc_material *material = &model->materials[m];
+  double delays[2];
   if (material->active == VSC_ACTIVE_NONE) return most;
-  const delays d = delays_of(model, m);
-  for (int k = 0; k < d.count; k++) most = load_calm(&material->curve, time - d.first - k * d.between, most);
+  vsc_model_delays(model, m, delays);
+  const double between = (delays[1] - delays[0]) / (DELAYS - 1);
+  if (!(between > 0)) return load_calm(&material->curve, time - material->delay - delays[0], most);
+  for (int k = 0; k < DELAYS; k++)
+    most = load_calm(&material->curve, time - material->delay - delays[0] - k * between, most);
   return most;
-}
-
-bool vsc_model_wakes(const vsc_model *model, double time, double later)
-{
-  double rise = 0;
-  for (size_t m = 0; m < model->material_count; m++) {
-    const vsc_material *material = &model->materials[m];
-    if (material->active == VSC_ACTIVE_NONE) continue;
-    const delays d = delays_of(model, m);
-    for (int k = 0; k < d.count; k++) {
-      const double then = time - d.first - k * d.between;
-      rise += vsc_curve_value(&material->curve, then + later) - vsc_curve_value(&material->curve, then);
-    }
-  }
-  return rise > 0;
 }
 
 // How near the obstacle is to the nearest of its nodes, mm.

@@ -16,10 +16,6 @@
 // nearest of its nodes at x (node_count x 4, mm) may do what it likes.
 double vsc_model_calm(const vsc_model *model, const double *x, double time, double most);
 
-// Whether more is active `later` (ms) after `time` (ms) than at it: the sum of the curves of all active materials (at the
-// same delays).
-bool vsc_model_wakes(const vsc_model *model, double time, double later);
-
 // The least and the largest of what the cell array adds to the delay of material m in its elements, ms: 0 without an
 // array, infinity and its opposite without elements.
 void vsc_model_delays(const vsc_model *model, size_t m, double delays[2]);

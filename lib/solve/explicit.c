@@ -9,13 +9,12 @@
 #include "mech/force.h"
 #include "mech/prony.h"
 #include "mech/step_limit.h"
-#include "model/calm.h"
 #include "solve/contact.h"
 #include "solve/keep_volume.h"
 #include "solve/moving.h"
 
 // The step is re-estimated at intervals between these, ms: twice as late while the eigenvalue stays
-// within 2 %, twice as soon when it moved by more than 10 %, and before activity changes by a sixth.
+// within 2 %, twice as soon when it moved by more than 10 %.
 #define SHORTEST_TRUST 0.25
 #define LONGEST_TRUST 4.0
 enum { TRUSTED_STEPS = 128 };  // or as long as these take: an estimate costs as much as five
@@ -303,23 +302,14 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
   return VSC_OK;
 }
 
-// How long the next estimate may be trusted at most, ms: not through what loads and activity are about to change.
-static double horizon_of(const vsc_model *model, const vsc_state *state)
-{
-  const double longest = fmin(2 * state->limit.interval, longest_trust(&state->limit));
-  return fmax(vsc_model_calm(model, state->x, state->time, longest), SHORTEST_TRUST);
-}
-
 static vsc_status refresh_limit(const vsc_model *model, vsc_state *state, vsc_error *error)
 {
   vsc_limit *limit = &state->limit;
-  const double before = limit->eigenvalue, horizon = horizon_of(model, state), passed = state->time - limit->time;
-  // with the activity that is to come
-  const double busier = vsc_model_wakes(model, state->time, horizon) ? state->time + horizon : state->time;
-  vsc_limit_refresh(model, state, busier, WARM_ITERATIONS);
+  const double before = limit->eigenvalue;
+  vsc_limit_refresh(model, state, state->time, WARM_ITERATIONS);
   const double rise = (limit->eigenvalue - before) / before;
+  if (fabs(rise) < 0.02) limit->interval = fmin(2 * limit->interval, longest_trust(limit));
   if (fabs(rise) > 0.10) limit->interval = fmax(0.5 * limit->interval, SHORTEST_TRUST);
-  limit->interval = fmin(fabs(rise) < 0.02 ? 2 * limit->interval : limit->interval, horizon);
   limit->time = state->time;
   const vsc_status status = check_collapse(model, state, COLLAPSE, error);
   if (status != VSC_OK) return status;
@@ -329,8 +319,6 @@ static vsc_status refresh_limit(const vsc_model *model, vsc_state *state, vsc_er
                     "step is now %.6g ms; "
                     "use `step: auto` or a smaller step",
                     state->time, model->step, limit->step / model->safety);
-  // what has risen goes on rising: a step that bears it to the end of the interval
-  limit->step /= sqrt(1 + fmax(rise, 0) * limit->interval / passed);
   limit->least = fmin(limit->least, limit->step);
   return VSC_OK;
 }
