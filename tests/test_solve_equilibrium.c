@@ -306,6 +306,8 @@ static void a_load_too_large_is_told_and_leaves_the_last_good_state(void **state
   assert_int_equal(solve_to(&body, 10, &error), VSC_NUMERICAL);
   assert_non_null(strstr(error.text, " ms no equilibrium was found: "));
   assert_non_null(strstr(error.text, "better mesh there, solver.method: relaxation, or solve: implicit or explicit"));
+  assert_non_null(strstr(error.text, " mm; it is of element "));
+  assert_non_null(strstr(error.text, " mN, is that of weight; take a smaller load"));
   uint32_t element;
   assert_true(vsc_smallest_ratio(body.model, body.state->x, &element) > 0);
   assert_true(body.state->time < 10);
@@ -349,7 +351,7 @@ static void standing_still_under_load_is_no_equilibrium(void **state)
     assert_int_equal(vsc_newton_create(body.model, &newton, &error), VSC_OK);
     const double size = vsc_body_size(body.model);
     wrong_balance wrong = {body.model, 1, 1 / (5e-15 * size)};
-    const vsc_balance balance = {&wrong, wrong_residual, wrong_tangent, NULL};
+    const vsc_balance balance = {&wrong, wrong_residual, wrong_tangent, NULL, NULL};
     wrong_residual(&wrong, NULL, body.state->force);
     vsc_newton_begin(newton, body.state->force);
     if (part == 1) newton->scale *= 1.1e3;

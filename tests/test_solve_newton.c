@@ -69,7 +69,7 @@ static void infinite_forces_are_told(void **state)
     open_hanging(&body, VSC_SOLVE_EQUILIBRIUM);
     assert_int_equal(vsc_newton_create(body.model, &newton, &error), VSC_OK);
     vsc_newton_begin(newton, body.model->weight);
-    const vsc_balance balance = {&body, infinite_residual, no_tangent, NULL};
+    const vsc_balance balance = {&body, infinite_residual, no_tangent, NULL, NULL};
     vsc_alloc_fail_after(memory == 0 ? 0 : -1);
     trap_off();
     const vsc_status status = vsc_newton_solve(newton, &balance, 1, 1, body.state->x, &iterations, &error);
@@ -132,7 +132,7 @@ static void a_far_start_gives_way(void **state)
       if (i % 4 < 3) body.model->inverse_mass[i] = 1 / body.model->mass[i / 4];
     assert_int_equal(vsc_newton_create(body.model, &newton, &error), VSC_OK);
     pulled p = {body.model, cases[k].other, 0};
-    const vsc_balance balance = {&p, pulled_residual, pulled_tangent, pulled_stay};
+    const vsc_balance balance = {&p, pulled_residual, pulled_tangent, pulled_stay, NULL};
     // the forces at work: those of a millimetre
     for (size_t i = 0; i < 4 * body.model->node_count; i++) {
       body.state->force[i] = i % 4 < 3 ? body.model->mass[i / 4] : 0;

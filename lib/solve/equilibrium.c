@@ -38,6 +38,12 @@ static void assemble(void *context, const double *x, const double *before, vsc_t
   vsc_kept_add_tangent(newton->kept, x, 1, &tangent->matrix);
 }
 
+static vsc_culprit blame(void *context, const double *x, size_t node)
+{
+  const statics *s = context;
+  return vsc_find_culprit(s->model, x, NULL, s->time, &s->state->scratch, node);
+}
+
 static void release(void *solver)
 {
   vsc_newton_free(solver);
@@ -58,7 +64,7 @@ vsc_status vsc_equilibrium_start(const vsc_model *model, vsc_state *state, vsc_e
 static vsc_status go_rounds(vsc_newton *newton, statics *s, double *x, int *iterations, vsc_error *error)
 {
   const double tolerance = s->model->solve.incompressible;
-  const vsc_balance balance = {s, residual, assemble, NULL};
+  const vsc_balance balance = {s, residual, assemble, NULL, blame};
   double off = 0;
   for (int round = 0; round < VSC_MOST_ROUNDS; round++) {
     int more;

@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "mech/coupled_mass.h"
+#include "mech/culprit.h"
 #include "mech/force.h"
 #include "mech/prony.h"
 #include "mech/step_limit.h"
@@ -239,17 +240,19 @@ static double step_at_rest(const vsc_model *model, vsc_state *state)
 }
 
 // Fails where the stable step is below `part` of that at the start or at rest.
-static vsc_status check_collapse(const vsc_model *model, const vsc_state *state, double part, vsc_error *error)
+static vsc_status check_collapse(const vsc_model *model, vsc_state *state, double part, vsc_error *error)
 {
   const vsc_limit *limit = &state->limit;
   const double usual = fmax(limit->first, limit->rest);
   if (isfinite(limit->eigenvalue) && !(limit->step < part * usual)) return VSC_OK;
-  char node[VSC_NODE_TEXT];
+  const size_t stiffest = vsc_largest_node(model, limit->mode);
+  const vsc_culprit culprit = vsc_find_culprit(model, state->x, state->v, state->time, &state->scratch, stiffest);
+  char node[VSC_NODE_TEXT], text[VSC_CULPRIT_TEXT];
   return vsc_fail(error, VSC_NUMERICAL,
                   "at %.6g ms the stable step has collapsed from %.3g to %.3g ms, stiffest is what pulls at "
-                  "%s: elements are torn or crushed; take more damping or a smaller load",
-                  state->time, usual, limit->step,
-                  vsc_name_node(model, vsc_largest_node(model, limit->mode), node, sizeof node));
+                  "%s%s: elements are torn or crushed; take more damping or a smaller load",
+                  state->time, usual, limit->step, vsc_name_node(model, stiffest, node, sizeof node),
+                  vsc_name_culprit(&culprit, "", text, sizeof text));
 }
 
 vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)

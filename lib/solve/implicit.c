@@ -201,6 +201,18 @@ static void assemble(void *context, const double *x, const double *before, vsc_t
   vsc_tangent_add_masses(p->model, tangent, (1 - c->mass_past) * c->A);
 }
 
+static vsc_culprit blame(void *context, const double *x, size_t node)
+{
+  (void)x;
+  const step *p = context;
+  double force[3];
+  vsc_culprit culprit =
+      vsc_find_culprit(p->model, p->s->middle, p->s->velocity, p->time, &p->state->scratch, node);
+  for (size_t i = 0; i < 3; i++) force[i] = p->model->mass[node] * p->s->middle_a[4 * node + i];
+  vsc_culprit_weigh(&culprit, "inertia", force);
+  return culprit;
+}
+
 // Where the state is, as far as supports and obstacles let it.
 static void stay(void *context, double *x)
 {
@@ -289,7 +301,7 @@ static vsc_status do_step(const vsc_model *model, vsc_state *state, double dt, d
   stepper *s = state->solver;
   step p = {model, state, s, prepare(model, state, s, dt), 0, state->time + dt};
   p.time = state->time + (1 - p.scheme.force_past) * dt;
-  const vsc_balance balance = {&p, residual, assemble, stay};
+  const vsc_balance balance = {&p, residual, assemble, stay, blame};
   vsc_touch_begin(s->newton->touch, state, state->time + dt, true, 1 - p.scheme.force_past,
                   (1 - p.scheme.mass_past) * p.scheme.A);
   vsc_touch_part(s->newton->touch, state, state->a, s->stopped);

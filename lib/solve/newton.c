@@ -205,7 +205,27 @@ static const char *other_ways(const vsc_model *model)
   return "solver.method: relaxation, or solve: implicit or explicit";
 }
 
-static vsc_status fail(const vsc_newton *newton, vsc_error *error, double time, const char *why)
+// What pulls most at the node at x, with what pushes there beside the balance's own forces.
+static const char *blame(vsc_newton *newton, const vsc_balance *balance, const double *x, size_t node,
+                         char text[VSC_CULPRIT_TEXT])
+{
+  *text = '\0';
+  if (balance->blame == NULL) return text;
+  double *beside = newton->trial;
+  const size_t bytes = 4 * newton->model->node_count * sizeof *beside;
+  balance->residual(balance->context, x, newton->d);
+  vsc_culprit culprit = balance->blame(balance->context, x, node);
+  memset(beside, 0, bytes);
+  vsc_touch_push(newton->touch, x, NULL, beside);
+  vsc_culprit_weigh(&culprit, "an obstacle", beside + 4 * node);
+  memset(beside, 0, bytes);
+  vsc_kept_add_force(newton->kept, x, beside);
+  vsc_culprit_weigh(&culprit, "a kept volume", beside + 4 * node);
+  return vsc_name_culprit(&culprit, "", text, VSC_CULPRIT_TEXT);
+}
+
+static vsc_status fail(vsc_newton *newton, const vsc_balance *balance, const double *x, vsc_error *error, double time,
+                       const char *why)
 {
   const vsc_model *model = newton->model;
   double *out = newton->trial, size = 0;
@@ -213,15 +233,15 @@ static vsc_status fail(const vsc_newton *newton, vsc_error *error, double time, 
   for (size_t i = 0; i < 4 * model->node_count; i++) out[i] = model->inverse_mass[i] != 0 ? newton->r[i] : 0;
   const size_t worst = vsc_largest_node(model, out);
   for (size_t i = 4 * worst; i < 4 * worst + 3; i++) size += out[i] * out[i];
-  char node[VSC_NODE_TEXT], ways[VSC_FREE_TEXT], loose[VSC_FREE_TEXT + 140] = "";
+  char node[VSC_NODE_TEXT], culprit[VSC_CULPRIT_TEXT], ways[VSC_FREE_TEXT], loose[VSC_FREE_TEXT + 140] = "";
   if (vsc_free_motions(model, ways, sizeof ways) > 0)
     snprintf(loose, sizeof loose,
              "; nothing%s keeps the body from moving as a whole, it is free to %s: hold it by supports or robin",
              model->obstacle_count > 0 ? " but obstacles that it touches" : "", ways);
   return vsc_fail(error, VSC_NUMERICAL,
-                  "at %.6g ms no equilibrium was found: %s%s; furthest out of balance, by %.2g mN, is %s; take a smaller "
+                  "at %.6g ms no equilibrium was found: %s%s; furthest out of balance, by %.2g mN, is %s%s; take a smaller "
                   "load or a better mesh there, %s", time, why, loose, sqrt(size),
-                  vsc_name_node(model, worst, node, sizeof node), other_ways(model));
+                  vsc_name_node(model, worst, node, sizeof node), blame(newton, balance, x, worst, culprit), other_ways(model));
 }
 
 // r at x, and its norm.
@@ -243,18 +263,20 @@ static double start(vsc_newton *newton, const vsc_balance *balance, double *x)
   return look(newton, balance, x, NULL);
 }
 
-// A position is no longer finite, or else a force.
-static vsc_status fail_infinite(const vsc_newton *newton, const double *x, double time, vsc_error *error)
+// A position is no longer finite, or else a force; what pulls there does so at the iterate before, where there is one.
+static vsc_status fail_infinite(vsc_newton *newton, const vsc_balance *balance, const double *x, bool first, double time,
+                                vsc_error *error)
 {
   const vsc_model *model = newton->model;
   size_t node = vsc_largest_node(model, x);
   const bool lost = !isfinite(x[4 * node] + x[4 * node + 1] + x[4 * node + 2]);
   if (!lost) node = vsc_largest_node(model, newton->r);
-  char name[VSC_NODE_TEXT];
+  char name[VSC_NODE_TEXT], culprit[VSC_CULPRIT_TEXT] = "";
+  if (!first || !lost) blame(newton, balance, first ? x : newton->before, node, culprit);
   return vsc_fail(error, VSC_NUMERICAL,
-                  "at %.6g ms no equilibrium was found: the %s %s, is no longer a finite number; take a smaller load or a "
+                  "at %.6g ms no equilibrium was found: the %s %s, is no longer a finite number%s; take a smaller load or a "
                   "better mesh there, %s", time, lost ? "position of" : "force on",
-                  vsc_name_node(model, node, name, sizeof name), other_ways(model));
+                  vsc_name_node(model, node, name, sizeof name), culprit, other_ways(model));
 }
 
 static vsc_status solve(vsc_newton *newton, const vsc_balance *balance, double time, double load, double *x,
@@ -306,22 +328,22 @@ static vsc_status solve(vsc_newton *newton, const vsc_balance *balance, double t
     newton->iterations++;
     if (status != VSC_OK) {
       newton->failures++;
-      return status == VSC_NUMERICAL ? fail(newton, error, time, reason.text)
+      return status == VSC_NUMERICAL ? fail(newton, balance, x, error, time, reason.text)
                                      : vsc_fail(error, status, "%s", reason.text);
     }
     char why[WHY];
     if (!step(newton, x, why)) {
       newton->failures++;
-      return fail(newton, error, time, why);
+      return fail(newton, balance, x, error, time, why);
     }
   }
   newton->failures++;
-  if (!finite) return fail_infinite(newton, x, time, error);
+  if (!finite) return fail_infinite(newton, balance, x, *iterations == 0, time, error);
   char why[WHY];
   snprintf(why, WHY, "the residual is %.2g of the forces after %d iterations, not below %.2g", relative, *iterations,
            tolerance);
   if (relative <= tolerance) snprintf(why, sizeof why, "a kept volume is off by %.2g of itself", off);
-  return fail(newton, error, time, why);
+  return fail(newton, balance, x, error, time, why);
 }
 
 vsc_status vsc_newton_solve(vsc_newton *newton, const vsc_balance *balance, double time, double load, double *x,

@@ -8,6 +8,7 @@
 #ifndef VSC_SOLVE_NEWTON_H
 #define VSC_SOLVE_NEWTON_H
 
+#include "mech/culprit.h"
 #include "mech/state.h"
 #include "mech/tangent.h"
 #include "solve/incompressible.h"
@@ -19,12 +20,14 @@ enum { VSC_MOST_NEWTON = 40 };  // iterations of one solution
 
 // What has to vanish. `residual` fills r (node_count x 4, mN) at x; `assemble` the tangent at the x of
 // the last residual; `before` is the iterate before, or NULL. Both with the pressures of kept volumes
-// (solve/kept_balance.h), which are unknowns beside x.
+// (solve/kept_balance.h), which are unknowns beside x. `blame` finds what pulls most at a node where no solution was
+// found, at the x of the last residual, for the message.
 typedef struct vsc_balance {
   void *context;
   void (*residual)(void *context, const double *x, double *r);
   void (*assemble)(void *context, const double *x, const double *before, vsc_tangent *tangent);
   void (*stay)(void *context, double *x);  // where else to start from, if forces are far off where it is; or NULL
+  vsc_culprit (*blame)(void *context, const double *x, size_t node);  // or NULL
 } vsc_balance;
 
 // One iteration of one solution, for those who want to see how it went.

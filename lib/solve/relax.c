@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "mech/culprit.h"
 #include "mech/force.h"
 #include "mech/prony.h"
 #include "mech/step_limit.h"
@@ -99,17 +100,25 @@ static void step(const relaxer *r, vsc_state *state, double time, double h, doub
   *damping = moving > 0 ? 2 * sqrt(fmax(stiff, 0) / (h * moving)) : 0;
 }
 
+// What pulls most at the node, for the message.
+static const char *blame(const vsc_model *model, vsc_state *state, double time, size_t node, char text[VSC_CULPRIT_TEXT])
+{
+  const vsc_culprit culprit = vsc_find_culprit(model, state->x, NULL, time, &state->scratch, node);
+  return vsc_name_culprit(&culprit, "", text, VSC_CULPRIT_TEXT);
+}
+
 // Something is no longer finite: a position, or else a force.
-static vsc_status fail_infinite(const vsc_model *model, const vsc_state *state, double time, double steps, vsc_error *error)
+static vsc_status fail_infinite(const vsc_model *model, vsc_state *state, double time, double steps, vsc_error *error)
 {
   const size_t bad = vsc_state_find_bad(model, state);
   const bool lost = bad < model->node_count;
-  char node[VSC_NODE_TEXT];
+  const size_t worst = lost ? bad : vsc_largest_node(model, state->force);
+  char node[VSC_NODE_TEXT], culprit[VSC_CULPRIT_TEXT];
   return vsc_fail(error, VSC_NUMERICAL,
                   "at %.6g ms no equilibrium was found: in step %.0f of relaxation the %s %s, is no longer a finite "
-                  "number; take a smaller load or a better mesh there, or solver.method: newton",
-                  time, steps, lost ? "position of" : "force on",
-                  vsc_name_node(model, lost ? bad : vsc_largest_node(model, state->force), node, sizeof node));
+                  "number%s; take a smaller load or a better mesh there, or solver.method: newton",
+                  time, steps, lost ? "position of" : "force on", vsc_name_node(model, worst, node, sizeof node),
+                  blame(model, state, time, worst, culprit));
 }
 
 // From the last equilibrium to the one at `until`; what moves stays so after a failure.
@@ -133,12 +142,13 @@ static vsc_status relax(const vsc_model *model, vsc_state *state, double until, 
     if (!isfinite(rest)) return fail_infinite(model, state, until, k + 1, error);
     if (k >= RAMP_STEPS && rest <= fmax(tolerance * tolerance * scale, r->floor * r->floor)) return VSC_OK;
   }
-  char node[VSC_NODE_TEXT];
+  const size_t fastest = vsc_largest_node(model, state->v);
+  char node[VSC_NODE_TEXT], culprit[VSC_CULPRIT_TEXT];
   return vsc_fail(error, VSC_NUMERICAL,
                   "at %.6g ms no equilibrium was found: relaxation has not come to rest in %d steps, least of all "
-                  "%s; use solver.method: newton, or a larger solver.tolerance",
-                  until, MOST_STEPS,
-                  vsc_name_node(model, vsc_largest_node(model, state->v), node, sizeof node));
+                  "%s%s; use solver.method: newton, or a larger solver.tolerance",
+                  until, MOST_STEPS, vsc_name_node(model, fastest, node, sizeof node),
+                  blame(model, state, until, fastest, culprit));
 }
 
 vsc_status vsc_relax_to(const vsc_model *model, vsc_state *state, double until, vsc_error *error)
