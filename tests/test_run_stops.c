@@ -45,6 +45,22 @@ static void test_repeated_with_shorter_steps(void **state)
   assert_true(strtod(summary("torn", "stretches_repeated_with_shorter_steps"), NULL) == 3);
 }
 
+// A load beyond all measure: what is told is where the first number is lost, on the end that it pushes, not the first node
+// of a body of which nothing is left; and the state before is kept.
+static void test_lost_numbers(void **state)
+{
+  (void)state;
+  assert_int_equal(shell("$V run block.yaml -q -o lost --set 'pressures=[{surface: end, peak: 1e12 kPa}]'"), 3);
+  assert_int_equal(line_count(complained), 1);
+  assert_holds(complained, " the position of node ");
+  assert_holds(complained, ", at rest at (20, ");
+  assert_holds(complained, ") mm, is no longer a finite number; it is of element ");
+  assert_holds(complained, " mN a step before, is that of volume: the simulation has blown up; take a smaller time.safety");
+  assert_string_equal(summary("lost", "outcome"), "failed");
+  assert_true(number("lost", "stretches_repeated_with_shorter_steps") == 3);
+  must("$V info lost/checkpoint.h5");
+}
+
 // What went well in the end leaves no message.
 static void test_repeated_without_a_message(void **state)
 {
@@ -280,6 +296,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_repeated_with_shorter_steps),
+      cmocka_unit_test(test_lost_numbers),
       cmocka_unit_test(test_repeated_without_a_message),
       cmocka_unit_test(test_steps_grow_again),
       cmocka_unit_test(test_steps_that_rows_cut),

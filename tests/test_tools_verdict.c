@@ -53,6 +53,10 @@ static void messages_name_what_they_should(void **state)
        "(1, 2, 3) mm has the smallest volume; take a smaller load", NULL},
       {"at 3 ms the energy balance jumped by 2 mJ; element 3 at (1, 2, 3) mm; take a smaller load", "no energy in: "},
       {"at 3 ms node 3 at (1, 2, 3) mm is lost; take a smaller load", NULL},
+      {"at 3 ms node 3 at (1, 2, 3) mm is no longer a finite number; the largest force on it, 2 mN, is that of volume; take "
+       "a smaller load", NULL},
+      {"at 3 ms node 3 at (1, 2, 3) mm is no longer a finite number; take a smaller load", "no term in: "},
+      {"at 3 ms furthest out of balance, by 2 mN, is node 3 at (1, 2, 3) mm; take a smaller load", "no term in: "},
       {"node 3, (1, 2, 3) mm, is lost; take a smaller load", "no time in: "},
       {"at 3 ms (1, 2, 3) mm is lost; take a smaller load", "no element or node in: "},
       {"at 3 ms node 3 is lost; take a smaller load", "no place in: "},

@@ -90,6 +90,14 @@ vsc_status vsc_job_make_good(vsc_job *job, vsc_error *error);
 void vsc_job_keep_good(vsc_job *job);
 void vsc_job_go_back(vsc_job *job);
 
+// Whether numbers of the state are lost: explicit steps leave it as it is when they fail.
+bool vsc_job_has_lost(const vsc_job *job);
+
+// Goes on from the last good state, one step at a time of the length that was tried last, to where the first number is
+// lost, at most twice as far as to where it was missed: VSC_NUMERICAL, with that node, its element and what pulled most
+// there, or with the message that `error` has where that is not met again. The state is to be thrown away.
+vsc_status vsc_job_find_lost(vsc_job *job, vsc_error *error);
+
 // Takes the elements that the last look has found inside out into most_inverted, the first of all with place and time.
 void vsc_job_count_inverted(vsc_job *job);
 

@@ -295,7 +295,7 @@ static void judge_inverted(vsc_job *job, double vain, bool only)
 // To the next look. When energy does not balance there, because loads or vibrations have changed much
 // since the last look, the same way is gone again with closer looks, then with steps of a half, a quarter,
 // an eighth of their length and looks closer still, and so it is when numbers are no longer finite; what
-// fails then is coming apart, but for what supports do that start or stop at once. Where elements turn inside out it
+// fails then is coming apart (or loses a number, of which it is told where that begins), but for what supports do that start or stop at once. Where elements turn inside out it
 // is gone again once, in steps of half their length.
 static vsc_status go_to_look(vsc_job *job, double time, vsc_error *error)
 {
@@ -318,6 +318,7 @@ static vsc_status go_to_look(vsc_job *job, double time, vsc_error *error)
     status = go_closer(job, start, time, CLOSER << turn, error);
     job->watch->settles = false;
   }
+  if (status == VSC_NUMERICAL && vsc_job_has_lost(job)) return vsc_job_find_lost(job, error);
   if (status == VSC_OK) judge_inverted(job, vain, first == 1 && turn == 2);
   if (status == VSC_OK) grow_calm(job);
   return status;

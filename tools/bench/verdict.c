@@ -38,15 +38,18 @@ static bool holds_one_of(const char *text, const char *const *words)
   return false;
 }
 
-// What of time, element or node, place, remedy and, where the balance has failed, energy a failure does not name.
+// What of time, element or node, place, remedy and, where the balance has failed, energy, or where numbers are lost or
+// forces do not balance the term that pulls most, a failure does not name.
 static const char *missing_in(const char *text)
 {
   static const char *const things[] = {"element ", "node ", NULL};
   static const char *const remedies[] = {"take ", "use ", "give ", "hold ", NULL};
+  static const char *const forces[] = {" is no longer a finite number", " furthest out of balance, ", NULL};
   if (strstr(text, "at ") == NULL || strstr(text, " ms") == NULL) return "time";
   if (!holds_one_of(text, things)) return "element or node";
   if (strstr(text, ") mm") == NULL) return "place";
   if (strstr(text, "the energy balance ") != NULL && strstr(text, " most in the ") == NULL) return "energy";
+  if (holds_one_of(text, forces) && strstr(text, " is that of ") == NULL) return "term";
   return holds_one_of(text, remedies) ? NULL : "remedy";
 }
 
