@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The stable step of bodies that contract, looked at just before each new estimate, when it is oldest: against the
-// true one of where they are then.
+// The stable step of bodies that contract, looked at behind each step, so that it is seen when it is oldest too: against
+// the true one of where they are then.
 #include "kinds_body.h"
 #include "solve/explicit.h"
 #include "tissue_laws.h"
@@ -32,9 +32,9 @@ static double most_of_true(int law, kinds_mesh kind, double tension, double dura
       vsc_state_create(model, &state, &error) != VSC_OK || vsc_start(model, state, &error) != VSC_OK)
     fail_msg("%s", error.text);
   double most = 0;
-  for (double time = 0.5; time < duration + 4; time += 0.5) {
+  while (state->time < duration + 4) {
     double step;
-    if (vsc_advance(model, state, time, &error) != VSC_OK) fail_msg("law %d: %s", law, error.text);
+    if (vsc_advance(model, state, state->time + state->limit.step, &error) != VSC_OK) fail_msg("law %d: %s", law, error.text);
     assert_int_equal(vsc_true_step(model, state, &step, &error), VSC_OK);
     most = fmax(most, state->limit.step / model->safety / step);
   }
@@ -46,14 +46,15 @@ static double most_of_true(int law, kinds_mesh kind, double tension, double dura
 }
 
 // While 20 kPa come and go in 20 ms the estimate is at most 1.04 of the true step when it is oldest: steps, with the safety
-// of 0.8, are 0.83 of it. Tension of thirty times the shear modulus within 5 ms stiffens tissue by four fifths between two
-// estimates, five steps apart: these steps are up to 1.08 of the true one, for as long as that takes.
+// of 0.8, are 0.83 of it. Tension of thirty times the shear modulus within 5 ms stiffens tissue more than twofold between
+// two estimates: steps are up to 1.2 of the true one, for as long as that takes. An estimate behind each step, 150 instead
+// of 20, would leave 1.16 of the 1.49: hexahedra under an exponential law stiffen by two fifths from one step to the next.
 static void estimates_age_no_more_than_safety_bears(void **nothing)
 {
   (void)nothing;
   static const int laws[4] = {2, 8, 10, 13};
   static const kinds_mesh kinds[2] = {ALL_TETS, ALL_HEXES};
-  static const double most_slow[2] = {1.03, 1.04}, most_sudden[2] = {1.31, 1.36};
+  static const double most_slow[2] = {1.035, 1.05}, most_sudden[2] = {1.3, 1.5};
   for (int k = 0; k < 8; k++) {
     const int kind = k % 2, law = laws[k / 2];
     const double slow = most_of_true(law, kinds[kind], 20, 20), sudden = most_of_true(law, kinds[kind], 100, 10);
