@@ -28,6 +28,7 @@
 #include "mesh/axes.h"
 #include "mesh/mesh.h"
 #include "mesh/surface.h"
+#include "mesh/wound.h"
 #include "model/calibration.h"
 #include "model/definition.h"
 #include "model/model.h"
