@@ -60,9 +60,25 @@ static void warn_of_inverted(const vsc_job *job, vsc_run_result *result)
        job->inverted_time, job->problem->model->step > 0 ? "a shorter time.step, " : "");
 }
 
+// Each of its elements may be the right way out and near its volume.
+static void warn_of_wound(const vsc_job *job, vsc_run_result *result)
+{
+  const vsc_mesh *mesh = job->problem->mesh;
+  const vsc_wound *wound = &job->wound;
+  double at[3];
+  if (wound->count == 0) return;
+  for (int i = 0; i < 3; i++)
+    at[i] = (mesh->nodes[3 * (size_t)wound->ends[0] + i] + mesh->nodes[3 * (size_t)wound->ends[1] + i]) / 2;
+  warn(result,
+       "the body ends wound: round %zu edge%s its elements lie more than once, the first is that between nodes %u and %u at "
+       "(%.4g, %.4g, %.4g) mm; take a smaller load, a larger volume_modulus, or a finer mesh there",
+       wound->count, wound->count == 1 ? "" : "s", mesh->node_source[wound->ends[0]], mesh->node_source[wound->ends[1]], at[0], at[1], at[2]);
+}
+
 void vsc_job_warn(const vsc_job *job, vsc_run_result *result)
 {
   warn_of_energy(job, result);
   warn_of_exponents(job, result);
   warn_of_inverted(job, result);
+  warn_of_wound(job, result);
 }

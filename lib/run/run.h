@@ -38,13 +38,15 @@ typedef struct vsc_run_result {
   double repeated;            // how often a stretch was gone again with shorter steps, of all calls
   double most_inverted;       // most elements that were inside out at the same time, of all calls
   double inverted;            // that are in the end
+  double wound;               // edges round which the body lies more than once in the end (mesh/wound.h)
   double cycles;              // that were watched so far (time.cycle)
   double cycle_difference;    // of the last from the one before (run/cycle.h)
   bool interrupted;           // the run stopped before stop_time and its end because it was told to
   bool repeats;               // the run stopped because it was below time.cycle_tolerance
   char series[VSC_PATH];      // the PVD file
-  char warning[VSC_ERROR_TEXT];  // what is suspicious of it, in one line: energy that implicit steps have made, frames beyond
-                                 // a law's largest exponent; empty: nothing
+  char warning[3 * VSC_ERROR_TEXT];  // what is suspicious of it, in one line: energy that implicit steps have made, frames beyond
+                                     // a law's largest exponent, elements inside out, edges round which the body lies more
+                                     // than once; empty: nothing
 } vsc_run_result;
 
 // Part of the largest energy or work that implicit steps may make before that is warned of: half of it, so that energy
