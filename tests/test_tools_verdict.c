@@ -3,8 +3,9 @@
 #include "program.h"
 #include "tools/bench/verdict.h"
 
-// A run of two rows that balances, with elements inside out at its end, of which its summary tells `told`.
-static void leave_run(int inverted, int told)
+// A run of two rows that balances, with elements inside out at its end, of which its summary tells `told`, and of edges
+// with the body wound round them `wound`.
+static void leave_run(int inverted, int told, const char *wound)
 {
   char text[1024];
   snprintf(text, sizeof text,
@@ -12,9 +13,11 @@ static void leave_run(int inverted, int told)
            "energy_volume [mJ],balance_error [mJ]\n0,1,1,0,0,0,0,0,0\n1,%s,1.1,%d,1,1,1,1,0.01\n",
            inverted > 0 ? "-0.5" : "0.5", inverted);
   save_text("run/signals.csv", text);
-  snprintf(text, sizeof text, "{\n  \"steps\": 7,\n  \"inverted_elements\": %d,\n  \"most_inverted_elements\": 9\n}\n", told);
+  snprintf(text, sizeof text, "{\n  \"steps\": 7,\n  \"inverted_elements\": %d,\n  \"most_inverted_elements\": 9%s\n}\n", told, wound);
   save_text("run/summary.json", text);
 }
+
+static const char not_wound[] = ",\n  \"wound_edges\": 0";
 
 static vsc_verdict judged(vsc_status status, const char *message)
 {
@@ -30,15 +33,27 @@ static void elements_inside_out_are_no_survival_like_others(void **state)
 {
   (void)state;
   must("mkdir run");
-  leave_run(0, 0);
+  leave_run(0, 0, not_wound);
   assert_int_equal(judged(VSC_OK, "").kind, VSC_SURVIVES);
-  leave_run(3, 3);
+  leave_run(3, 3, not_wound);
   const vsc_verdict verdict = judged(VSC_OK, "");
   assert_int_equal(verdict.kind, VSC_INSIDE_OUT);
   assert_close(verdict.inverted, 3, 0, 0);
   assert_string_equal(verdict.why, "3 elements inside out in the end");
   assert_string_equal(vsc_verdict_names[verdict.kind], "inside out");
-  leave_run(3, 0);
+  leave_run(3, 0, not_wound);
+  assert_int_equal(judged(VSC_OK, "").kind, VSC_WRONG);
+}
+
+static void neither_is_a_body_that_is_wound(void **state)
+{
+  (void)state;
+  leave_run(0, 0, ",\n  \"wound_edges\": 2");
+  const vsc_verdict verdict = judged(VSC_OK, "");
+  assert_int_equal(verdict.kind, VSC_INSIDE_OUT);
+  assert_close(verdict.wound, 2, 0, 0);
+  assert_string_equal(verdict.why, "2 edges with the body wound round them in the end");
+  leave_run(0, 0, "");
   assert_int_equal(judged(VSC_OK, "").kind, VSC_WRONG);
 }
 
@@ -62,7 +77,7 @@ static void messages_name_what_they_should(void **state)
       {"at 3 ms node 3 is lost; take a smaller load", "no place in: "},
       {"at 3 ms node 3 at (1, 2, 3) mm is lost", "no remedy in: "},
   };
-  leave_run(0, 0);
+  leave_run(0, 0, not_wound);
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     const vsc_verdict verdict = judged(VSC_NUMERICAL, cases[k].message);
     assert_int_equal(verdict.kind, cases[k].missing == NULL ? VSC_STOPS : VSC_WRONG);
@@ -74,6 +89,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(elements_inside_out_are_no_survival_like_others),
+      cmocka_unit_test(neither_is_a_body_that_is_wound),
       cmocka_unit_test(messages_name_what_they_should),
   };
   return cmocka_run_group_tests(tests, program_open, program_close);

@@ -124,6 +124,19 @@ static void judge_inverted(const char *run, vsc_verdict *verdict)
     call_wrong(verdict, "the summary does not tell of %.0f elements inside out", verdict->inverted);
 }
 
+// Nor is a body that is wound round edges, of which no signal tells.
+static void judge_wound(const char *run, vsc_verdict *verdict)
+{
+  verdict->wound = vsc_results_number(run, "wound_edges");
+  if (verdict->kind != VSC_SURVIVES || verdict->wound == 0) return;
+  if (isnan(verdict->wound)) {
+    call_wrong(verdict, "the summary does not tell of edges with the body wound round them");
+    return;
+  }
+  verdict->kind = VSC_INSIDE_OUT;
+  snprintf(verdict->why, sizeof verdict->why, "%.0f edges with the body wound round them in the end", verdict->wound);
+}
+
 void vsc_judge(const vsc_stress_case *at, const char *folder, vsc_status status, const vsc_error *error,
                vsc_verdict *verdict)
 {
@@ -156,6 +169,7 @@ void vsc_judge(const vsc_stress_case *at, const char *folder, vsc_status status,
   verdict->kind = status == VSC_OK ? VSC_SURVIVES : VSC_STOPS;
   judge_signals(at, table, verdict);  // of a run that stops: the rows before
   if (verdict->kind == VSC_SURVIVES && verdict->inverted > 0) judge_inverted(run, verdict);
+  judge_wound(run, verdict);
   vsc_signals_free(table);
   const char *missing = status == VSC_NUMERICAL ? missing_in(error->text) : NULL;
   if (missing != NULL) call_wrong(verdict, "no %s in: %.500s", missing, error->text);
