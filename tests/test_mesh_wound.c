@@ -78,7 +78,7 @@ static vsc_wound wound_of(const vsc_mesh *mesh, const double *x)
 {
   vsc_wound wound;
   vsc_error error;
-  if (vsc_wound_edges(mesh, x, &wound, &error) != VSC_OK) fail_msg("%s", error.text);
+  if (vsc_wound_find(mesh, x, &wound, &error) != VSC_OK) fail_msg("%s", error.text);
   return wound;
 }
 
@@ -164,6 +164,31 @@ static void edges_of_the_surface(void **state)
     expect_axis(mesh, x, cases[k].count);
   }
   vsc_mesh_free(mesh);
+}
+
+// ---- corners
+
+// One corner of one element is pushed through its face: told of hexahedra, wedges and pyramids, whose frames do not see it; not
+// of tets. At rest the same corner is no fault of the run.
+static void corners_that_are_inside_out(void **state)
+{
+  (void)state;
+  for (int kind = 0; kind < VSC_CELLS; kind++) {
+    vsc_mesh *mesh = ring((vsc_cell)kind, SECTORS);
+    double x[3 * 256];
+    assert_int_equal(wound_of(mesh, mesh->nodes).folded, 0);
+    memcpy(x, mesh->nodes, 3 * mesh->node_count * sizeof *x);
+    const uint32_t *corners = vsc_mesh_corners(mesh, 4);
+    double *pushed = x + 3 * (size_t)corners[2];  // a ring's outermost
+    for (int i = 0; i < 3; i++) pushed[i] = kind == VSC_HEX ? 0.5 * pushed[i] : -0.05 * pushed[i];
+    const vsc_wound wound = wound_of(mesh, x);
+    const bool told = vsc_cells[kind].vertices != 4;
+    assert_int_equal(wound.folded > 0, told);
+    assert_true(!told || wound.element == 4 || wound.element == 3);
+    memcpy(mesh->nodes, x, 3 * mesh->node_count * sizeof *x);
+    assert_int_equal(wound_of(mesh, x).folded, 0);
+    vsc_mesh_free(mesh);
+  }
 }
 
 // ---- against sums of angles
@@ -269,7 +294,7 @@ static void memory_may_be_short(void **state)
   wind(mesh, 2, 2, x);
   for (long k = 0; k < 6; k++) {
     vsc_alloc_fail_after(k);
-    assert_int_equal(vsc_wound_edges(mesh, x, &wound, &error), VSC_SYSTEM);
+    assert_int_equal(vsc_wound_find(mesh, x, &wound, &error), VSC_SYSTEM);
   }
   vsc_alloc_fail_after(-1);
   vsc_mesh_free(mesh);
@@ -281,6 +306,7 @@ int main(void)
       cmocka_unit_test(rings_of_every_kind),
       cmocka_unit_test(curved_edges_count_by_their_tangents),
       cmocka_unit_test(edges_of_the_surface),
+      cmocka_unit_test(corners_that_are_inside_out),
       cmocka_unit_test(the_sum_decides),
       cmocka_unit_test(threads_change_nothing),
       cmocka_unit_test(memory_may_be_short),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bodies that end wound round an edge, every element of them the right way out, are told.
+// Bodies that end wound round an edge, or with an element inside out at a corner, every frame of them the right way out, are
+// told.
 #include "close.h"
 #include "program.h"
 
@@ -77,12 +78,39 @@ static void so_are_classical_springs(void **state)
   assert_holds(summary("edges", "warning"), told);
 }
 
+// A brick whose corner is pushed in, beyond the plane of the three corners beside it.
+static void a_corner_that_ends_inside_out_is_told(void **state)
+{
+  (void)state;
+  save_text("brick.vtk", "# vtk DataFile Version 3.0\nbrick\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n"
+            "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1\nCELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n12\n"
+            "POINT_DATA 8\nSCALARS id double 1\nLOOKUP_TABLE default\n1 0 0 0 0 0 2 0\n");
+  save_text("brick.yaml", "mesh: {file: brick.vtk, unit: mm}\n"
+            "node_sets: [{name: rest, node_array: id, value: 0}, {name: low, node_array: id, value: 1}, "
+            "{name: corner, node_array: id, value: 2}]\n"
+            "materials: [{name: brick, axial: {f: 20 kPa, s: 20 kPa, n: 20 kPa}, angular: {fs: 10 kPa, sn: 10 kPa, nf: 10 kPa}, "
+            "damping: {f: 5 Pa s, s: 5 Pa s, n: 5 Pa s}, volume_modulus: 60 kPa, stabilization: 10 kPa}]\n"
+            "supports:\n  - {set: rest, held: [x, y, z]}\n  - {set: low, held: [x, y]}\n"
+            "  - {set: corner, held: [x, y, z], motion: [-0.4 mm, -0.4 mm, -0.4 mm], curve: {kind: ramp, duration: 20 ms}}\n"
+            "time: {end: 30 ms}\noutput: {frames: 30 ms, signals: 1 ms}\n");
+  must("$V run brick.yaml -o corner");
+  assert_string_equal(summary("corner", "inverted_elements"), "0");
+  assert_string_equal(summary("corner", "wound_edges"), "0");
+  assert_string_equal(summary("corner", "folded_elements"), "1");
+  assert_holds(complained, "1 element is inside out at a corner in the end: the first is element 0, a hexahedron, at (0.5, "
+               "0.5, 0.5) mm; take a smaller load, a larger stabilization, or a finer mesh there");
+  must("$V run brick.yaml -o nearly --set 'time.end=10 ms'");
+  assert_string_equal(summary("nearly", "folded_elements"), "0");
+  assert_null(strstr(complained, "inside out"));
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_body_that_ends_wound_is_told),
       cmocka_unit_test(only_the_end_counts),
       cmocka_unit_test(so_are_classical_springs),
+      cmocka_unit_test(a_corner_that_ends_inside_out_is_told),
   };
   return cmocka_run_group_tests(tests, program_open, program_close);
 }

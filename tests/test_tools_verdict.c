@@ -3,8 +3,8 @@
 #include "program.h"
 #include "tools/bench/verdict.h"
 
-// A run of two rows that balances, with elements inside out at its end, of which its summary tells `told`, and of edges
-// with the body wound round them `wound`.
+// A run of two rows that balances, with elements inside out at its end, of which its summary tells `told`, and of
+// corners inside out and edges with the body wound round them `wound`.
 static void leave_run(int inverted, int told, const char *wound)
 {
   char text[1024];
@@ -17,7 +17,7 @@ static void leave_run(int inverted, int told, const char *wound)
   save_text("run/summary.json", text);
 }
 
-static const char not_wound[] = ",\n  \"wound_edges\": 0";
+static const char not_wound[] = ",\n  \"folded_elements\": 0,\n  \"wound_edges\": 0";
 
 static vsc_verdict judged(vsc_status status, const char *message)
 {
@@ -45,14 +45,20 @@ static void elements_inside_out_are_no_survival_like_others(void **state)
   assert_int_equal(judged(VSC_OK, "").kind, VSC_WRONG);
 }
 
-static void neither_is_a_body_that_is_wound(void **state)
+static void neither_is_a_body_that_is_wound_or_folded_at_corners(void **state)
 {
   (void)state;
-  leave_run(0, 0, ",\n  \"wound_edges\": 2");
-  const vsc_verdict verdict = judged(VSC_OK, "");
+  leave_run(0, 0, ",\n  \"folded_elements\": 0,\n  \"wound_edges\": 2");
+  vsc_verdict verdict = judged(VSC_OK, "");
   assert_int_equal(verdict.kind, VSC_INSIDE_OUT);
   assert_close(verdict.wound, 2, 0, 0);
-  assert_string_equal(verdict.why, "2 edges with the body wound round them in the end");
+  assert_string_equal(verdict.why, "0 elements inside out at a corner, the body wound round 2 edges in the end");
+  leave_run(0, 0, ",\n  \"folded_elements\": 1,\n  \"wound_edges\": 0");
+  verdict = judged(VSC_OK, "");
+  assert_int_equal(verdict.kind, VSC_INSIDE_OUT);
+  assert_close(verdict.folded, 1, 0, 0);
+  leave_run(0, 0, ",\n  \"wound_edges\": 0");
+  assert_int_equal(judged(VSC_OK, "").kind, VSC_WRONG);
   leave_run(0, 0, "");
   assert_int_equal(judged(VSC_OK, "").kind, VSC_WRONG);
 }
@@ -89,7 +95,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(elements_inside_out_are_no_survival_like_others),
-      cmocka_unit_test(neither_is_a_body_that_is_wound),
+      cmocka_unit_test(neither_is_a_body_that_is_wound_or_folded_at_corners),
       cmocka_unit_test(messages_name_what_they_should),
   };
   return cmocka_run_group_tests(tests, program_open, program_close);

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <string.h>
 
 #include "base/mem.h"
 #include "base/parallel.h"
@@ -41,8 +42,8 @@ typedef struct search {
   const vsc_mesh *mesh;
   const double *x;
   bool straight;            // all are linear tets: both ends of an edge have the same sum
-  uint8_t *suspect;         // of each element, whether it may have doubled an angle; owned
-  uint8_t *near;            // of each node, whether it is a vertex of such an element; owned
+  uint8_t *corners;         // of each element what its corners are, added up; owned
+  uint8_t *near;            // of each node, whether it is a vertex of an element that may have doubled an angle; owned
   size_t *start;            // node_count + 1: of such nodes, i is a vertex of elements[start[i] .. start[i + 1] - 1]; owned
   uint32_t *elements;       // owned
   size_t most;              // edges at a node, at the most
@@ -95,49 +96,58 @@ static double corner_of(const search *s, const double *x, size_t element, int at
   return vsc_dot(product, t[2]);
 }
 
-// Whether an angle at these three edges may be twice what it is in the mesh: S = det(rest)^2 tr C.
-static bool may_have_doubled(const search *s, size_t element, int at, const spoke *spoke)
+// What a corner is: an angle there may be twice what it is in the mesh, or it is inside out.
+enum { MAY_HAVE_DOUBLED = 1, FOLDED = 2 };
+
+// The same at three edges: S = det(rest)^2 tr C.
+static unsigned judge_corner(const search *s, size_t element, int at, const spoke *spoke)
 {
   double rest[3][3], now[3][3], cofactor[3][3], S = 0;
   const double whole = corner_of(s, s->mesh->nodes, element, at, spoke, rest);
   const double left = corner_of(s, s->x, element, at, spoke, now);
-  if (!(whole > 0)) return true;
-  if (left <= 0) return false;
+  if (!(whole > 0)) return MAY_HAVE_DOUBLED;
+  if (left <= 0) return FOLDED;
   for (int i = 0; i < 3; i++) vsc_cross(rest[(i + 1) % 3], rest[(i + 2) % 3], cofactor[i]);
   for (int i = 0; i < 3; i++)
     for (int k = 0; k < 3; k++) {
       const double part = now[0][i] * cofactor[0][k] + now[1][i] * cofactor[1][k] + now[2][i] * cofactor[2][k];
       S += part * part;
     }
-  return !(S * S * S < LEAST_SPREAD * left * left * whole * whole * whole * whole);
+  return S * S * S < LEAST_SPREAD * left * left * whole * whole * whole * whole ? 0 : MAY_HAVE_DOUBLED;
 }
 
-static bool suspect(const search *s, size_t element)
+static unsigned judge_element(const search *s, size_t element)
 {
   const spokes *kind = &s->kinds[s->mesh->kinds[element]];
   const int corners = s->straight ? 1 : MOST_VERTICES;  // those of a linear tet are alike
+  unsigned all = 0;
   for (int at = 0; at < corners; at++) {
     const int different = kind->count[at] == 3 ? 1 : kind->count[at];
-    for (int i = 0; i < different; i++)
-      if (may_have_doubled(s, element, at, &kind->items[at][i])) return true;
+    for (int i = 0; i < different; i++) all |= judge_corner(s, element, at, &kind->items[at][i]);
   }
-  return false;
+  return vsc_mesh_kind(s->mesh, element)->vertices == 4 ? all & MAY_HAVE_DOUBLED : all;
 }
 
-static void suspect_piece(void *context, size_t piece, int thread)
+static void judge_piece(void *context, size_t piece, int thread)
 {
   (void)thread;
   const search *s = context;
-  for (size_t e = piece * PIECE; e < (piece + 1) * PIECE && e < s->mesh->element_count; e++) s->suspect[e] = suspect(s, e);
+  for (size_t e = piece * PIECE; e < (piece + 1) * PIECE && e < s->mesh->element_count; e++)
+    s->corners[e] = (uint8_t)judge_element(s, e);
 }
 
-// Marks the vertices of suspect elements; whether there are any.
+static void count_folded(const search *s, vsc_wound *wound)
+{
+  for (size_t e = 0; e < s->mesh->element_count; e++)
+    if (s->corners[e] & FOLDED && wound->folded++ == 0) wound->element = (uint32_t)e;
+}
+
+// Marks the vertices of elements that may have doubled an angle; whether there are any.
 static bool mark_near(search *s)
 {
   bool any = false;
-  vsc_parallel_for((s->mesh->element_count + PIECE - 1) / PIECE, suspect_piece, s);
   for (size_t e = 0; e < s->mesh->element_count; e++) {
-    if (!s->suspect[e]) continue;
+    if (!(s->corners[e] & MAY_HAVE_DOUBLED)) continue;
     any = true;
     for (int i = 0; i < vsc_mesh_kind(s->mesh, e)->vertices; i++) s->near[vsc_mesh_corners(s->mesh, e)[i]] = 1;
   }
@@ -250,20 +260,21 @@ static void search_piece(void *context, size_t piece, int thread)
 static bool search_all(search *s, vsc_wound *wound)
 {
   const size_t pieces = (s->mesh->node_count + PIECE - 1) / PIECE;
-  if (!VSC_NEW(s->suspect, s->mesh->element_count) || !VSC_NEW(s->near, s->mesh->node_count)) return false;
+  if (!VSC_NEW(s->corners, s->mesh->element_count) || !VSC_NEW(s->near, s->mesh->node_count)) return false;
+  vsc_parallel_for((s->mesh->element_count + PIECE - 1) / PIECE, judge_piece, s);
+  count_folded(s, wound);
   if (!mark_near(s)) return true;
   if (!list_elements(s) || !VSC_NEW(s->fans, (size_t)vsc_parallel_threads() * s->most) || !VSC_NEW(s->found, pieces))
     return false;
   vsc_parallel_for(pieces, search_piece, s);
   for (size_t p = 0; p < pieces; p++) {
-    const size_t before = wound->count;
-    if (before == 0) *wound = s->found[p];
-    wound->count = before + s->found[p].count;
+    if (wound->count == 0) memcpy(wound->ends, s->found[p].ends, sizeof wound->ends);
+    wound->count += s->found[p].count;
   }
   return true;
 }
 
-vsc_status vsc_wound_edges(const vsc_mesh *mesh, const double *x, vsc_wound *wound, vsc_error *error)
+vsc_status vsc_wound_find(const vsc_mesh *mesh, const double *x, vsc_wound *wound, vsc_error *error)
 {
   search s = {.mesh = mesh, .x = x, .straight = true};
   *wound = (vsc_wound){0};
@@ -271,11 +282,11 @@ vsc_status vsc_wound_edges(const vsc_mesh *mesh, const double *x, vsc_wound *wou
   for (int kind = 0; kind < VSC_CELLS; kind++) s.kinds[kind] = spokes_of(&vsc_cells[kind]);
   for (size_t e = 0; e < mesh->element_count && s.straight; e++) s.straight = mesh->kinds[e] == VSC_TET;
   const bool done = search_all(&s, wound);
-  vsc_free(s.suspect);
+  vsc_free(s.corners);
   vsc_free(s.near);
   vsc_free(s.start);
   vsc_free(s.elements);
   vsc_free(s.fans);
   vsc_free(s.found);
-  return done ? VSC_OK : vsc_fail_memory(error, "the edges round which elements lie");
+  return done ? VSC_OK : vsc_fail_memory(error, "the search for wound edges");
 }

@@ -35,7 +35,7 @@ typedef struct vsc_job {
   double converged_rows;  // of convergence.csv so far
   double most_inverted;  // largest number of elements with J <= 0 at any look
   double inverted_element, inverted_time;  // the first of them, in the mesh, and when, ms; where there was one
-  vsc_wound wound;         // edges round which the body lies more than once in the end
+  vsc_wound wound;         // edges round which the body lies more than once in the end, corners that are inside out
   double inverted_before;  // as many had J <= 0 when the stretch under way began
   bool heeds;              // more of them end the stretch: it is to be gone again
   bool inverts;            // that has happened in it
@@ -103,13 +103,13 @@ vsc_status vsc_job_find_lost(vsc_job *job, vsc_error *error);
 // Takes the elements that the last look has found inside out into most_inverted, the first of all with place and time.
 void vsc_job_count_inverted(vsc_job *job);
 
-// Counts into job->wound round how many edges the body lies more than once in the present state. VSC_SYSTEM when memory is
-// short.
-vsc_status vsc_job_count_wound(vsc_job *job, vsc_error *error);
+// Finds for job->wound round which edges the body lies more than once in the present state, and which elements are inside
+// out at a corner. VSC_SYSTEM when memory is short.
+vsc_status vsc_job_find_wound(vsc_job *job, vsc_error *error);
 
 // What is suspicious of the run, and what to do, into result->warning: energy that implicit steps have made, frames
-// beyond the largest exponent of their law, elements that were inside out (how many, where it began), edges round which
-// the body ends wound (how many, one and its place). Nothing where there is nothing.
+// beyond the largest exponent of their law, elements that were inside out (how many, where it began), those that are at
+// corners and edges round which the body ends wound (how many, one and its place). Nothing where there is nothing.
 void vsc_job_warn(const vsc_job *job, vsc_run_result *result);
 
 // Writes DIRECTORY/summary.json; `failure` is NULL for a run that has reached its end.

@@ -60,6 +60,21 @@ static void warn_of_inverted(const vsc_job *job, vsc_run_result *result)
        job->inverted_time, job->problem->model->step > 0 ? "a shorter time.step, " : "");
 }
 
+// Frames lie within elements, whose corners they do not see.
+static void warn_of_folded(const vsc_job *job, vsc_run_result *result)
+{
+  const vsc_mesh *mesh = job->problem->mesh;
+  const vsc_wound *wound = &job->wound;
+  double at[3];
+  if (wound->folded == 0) return;
+  vsc_mesh_element_centre(mesh, wound->element, at);
+  warn(result,
+       "%zu element%s inside out at a corner in the end: the first is element %u, a %s, at (%.4g, %.4g, %.4g) mm; take a "
+       "smaller load, a larger stabilization, or a finer mesh there",
+       wound->folded, wound->folded == 1 ? " is" : "s are", mesh->element_source[wound->element],
+       vsc_mesh_kind(mesh, wound->element)->name, at[0], at[1], at[2]);
+}
+
 // Each of its elements may be the right way out and near its volume.
 static void warn_of_wound(const vsc_job *job, vsc_run_result *result)
 {
@@ -72,7 +87,8 @@ static void warn_of_wound(const vsc_job *job, vsc_run_result *result)
   warn(result,
        "the body ends wound: round %zu edge%s its elements lie more than once, the first is that between nodes %u and %u at "
        "(%.4g, %.4g, %.4g) mm; take a smaller load, a larger volume_modulus, or a finer mesh there",
-       wound->count, wound->count == 1 ? "" : "s", mesh->node_source[wound->ends[0]], mesh->node_source[wound->ends[1]], at[0], at[1], at[2]);
+       wound->count, wound->count == 1 ? "" : "s", mesh->node_source[wound->ends[0]], mesh->node_source[wound->ends[1]],
+       at[0], at[1], at[2]);
 }
 
 void vsc_job_warn(const vsc_job *job, vsc_run_result *result)
@@ -80,5 +96,6 @@ void vsc_job_warn(const vsc_job *job, vsc_run_result *result)
   warn_of_energy(job, result);
   warn_of_exponents(job, result);
   warn_of_inverted(job, result);
+  warn_of_folded(job, result);
   warn_of_wound(job, result);
 }

@@ -399,6 +399,7 @@ static void fill_result(const vsc_job *job, vsc_run_result *result)
   result->most_inverted = job->most_inverted;
   result->inverted = job->watch->totals.inverted;
   result->wound = (double)job->wound.count;
+  result->folded = (double)job->wound.folded;
   result->frames = job->pvd ? vsc_pvd_count(job->pvd) : 0;  // the writer has finished: a checkpoint was saved
   vsc_job_path(job, ".pvd", result->series);
   vsc_job_warn(job, result);
@@ -414,7 +415,7 @@ static void save_failure(vsc_job *job, vsc_run_result *result, const vsc_error *
   vsc_watch_resume(job->problem, job->state, job->watch);
   if (job->frames == 0 || fabs(job->last_frame - job->state->time) > 1e-6) vsc_job_write_frame(job, NULL);
   vsc_job_save(job, NULL);
-  vsc_job_count_wound(job, NULL);
+  vsc_job_find_wound(job, NULL);
   fill_result(job, result);
   vsc_job_summarize(job, result, error ? error->text : "failed", NULL);
 }
@@ -450,7 +451,7 @@ vsc_status vsc_run(vsc_problem *problem, const vsc_run_options *options, vsc_run
     result->interrupted = is_interrupted(&job) && !repeats(&job) && job.state->time < stop * (1 - VSC_SAME_TIME);
   }
   if (status == VSC_OK) status = save(&job, error);
-  if (status == VSC_OK) status = vsc_job_count_wound(&job, error);
+  if (status == VSC_OK) status = vsc_job_find_wound(&job, error);
   if (status == VSC_OK) {
     fill_result(&job, result);
     status = vsc_job_summarize(&job, result, NULL, error);

@@ -39,6 +39,7 @@ typedef struct vsc_run_result {
   double most_inverted;       // most elements that were inside out at the same time, of all calls
   double inverted;            // that are in the end
   double wound;               // edges round which the body lies more than once in the end (mesh/wound.h)
+  double folded;              // hexahedra, wedges and pyramids that are inside out at a corner in the end
   double cycles;              // that were watched so far (time.cycle)
   double cycle_difference;    // of the last from the one before (run/cycle.h)
   bool interrupted;           // the run stopped before stop_time and its end because it was told to

@@ -146,6 +146,7 @@ static void write_body(const vsc_job *job, const vsc_run_result *result, const c
     write_number(file, "stretches_repeated_with_shorter_steps", job->repeated, ",");
   write_number(file, "inverted_elements", job->watch->totals.inverted, ",");
   write_number(file, "most_inverted_elements", job->most_inverted, ",");
+  write_number(file, "folded_elements", (double)job->wound.folded, ",");
   write_number(file, "wound_edges", (double)job->wound.count, ",");
   write_number(file, "most_frames_beyond_exponent", job->most_continued, ",");
   write_number(file, "frames", (double)result->frames, ",");

@@ -63,13 +63,14 @@ static bool make_ordered(const vsc_model *model, const vsc_mesh *mesh, const dou
   return true;
 }
 
-vsc_status vsc_job_count_wound(vsc_job *job, vsc_error *error)
+vsc_status vsc_job_find_wound(vsc_job *job, vsc_error *error)
 {
   const vsc_model *model = job->problem->model;
   ordered body;
   vsc_status status = make_ordered(model, job->problem->mesh, job->state->x, &body)
                           ? VSC_OK : vsc_fail_memory(error, "the body in the model's order");
-  if (status == VSC_OK) status = vsc_wound_edges(body.rest, body.x, &job->wound, error);
+  if (status == VSC_OK) status = vsc_wound_find(body.rest, body.x, &job->wound, error);
+  if (status == VSC_OK && job->wound.folded > 0) job->wound.element = body.elements[job->wound.element];
   free_ordered(&body);
   for (int i = 0; i < 2 && status == VSC_OK && job->wound.count > 0; i++)
     job->wound.ends[i] = model->mesh_node[job->wound.ends[i]];

@@ -28,7 +28,7 @@ static const char help[] =
     "Usage: viscera bench stability [OPTION]...\n"
     "Puts a block of tissue through what breaks simulations: stiffness ratios, slivers, jumps, crushing loads,\n"
     "for every law, kind of element and method, and says of each case whether it survives with an energy that\n"
-    "balances (or does so with elements inside out, or wound round an edge), is refused or stops with a message\n"
+    "balances (or does so with elements inside out, or wound round edges), is refused or stops with a message\n"
     "that names element, place and remedy, or is silently wrong.\n"
     "Of explicit cases it compares the step that is claimed with the true limit. Some minutes; the tables go\n"
     "to stdout, DIR gets stability.csv, stability.png and the scenes of the cases that went wrong.\n\n"

@@ -24,15 +24,15 @@ vsc_status vsc_stability_write(const vsc_stability_row *rows, size_t count, cons
   const vsc_status status = vsc_replace_begin(name, &table, error);
   if (status != VSC_OK) return status;
   FILE *file = table.stream;
-  fputs("stress,law,element,method,outcome,exit_code,balance_error,J_min,J_max,inverted_at_end,wound_at_end,repeated,steps,"
-        "cpu_seconds,estimated_step_ms,true_step_ms,growth_below,growth_above,message\n", file);
+  fputs("stress,law,element,method,outcome,exit_code,balance_error,J_min,J_max,inverted_at_end,folded_at_end,wound_at_end,"
+        "repeated,steps,cpu_seconds,estimated_step_ms,true_step_ms,growth_below,growth_above,message\n", file);
   for (size_t k = 0; k < count; k++) {
     const vsc_stress_case *at = &rows[k].of;
     const vsc_verdict *v = &rows[k].verdict;
-    fprintf(file, "%s,%s,%s,%s,%s,%d,%.3g,%.4g,%.4g,%g,%g,%g,%g,%.3g,%.8g,%.8g,%.3g,%.3g,\"", vsc_stresses[at->stress].name,
+    fprintf(file, "%s,%s,%s,%s,%s,%d,%.3g,%.4g,%.4g,%g,%g,%g,%g,%g,%.3g,%.8g,%.8g,%.3g,%.3g,\"", vsc_stresses[at->stress].name,
             vsc_stress_laws[at->law], vsc_stress_kinds[at->kind], vsc_stress_methods[at->method],
-            vsc_verdict_names[v->kind], v->code, v->balance, v->J_low, v->J_high, v->inverted, v->wound, v->repeated,
-            v->steps, v->cpu_seconds, v->claimed, v->limit, v->below, v->above);
+            vsc_verdict_names[v->kind], v->code, v->balance, v->J_low, v->J_high, v->inverted, v->folded, v->wound,
+            v->repeated, v->steps, v->cpu_seconds, v->claimed, v->limit, v->below, v->above);
     write_text(file, v->why);
     fputs("\"\n", file);
   }

@@ -124,17 +124,19 @@ static void judge_inverted(const char *run, vsc_verdict *verdict)
     call_wrong(verdict, "the summary does not tell of %.0f elements inside out", verdict->inverted);
 }
 
-// Nor is a body that is wound round edges, of which no signal tells.
+// Nor is a body with corners inside out, or wound round edges, of which no signal tells.
 static void judge_wound(const char *run, vsc_verdict *verdict)
 {
+  verdict->folded = vsc_results_number(run, "folded_elements");
   verdict->wound = vsc_results_number(run, "wound_edges");
-  if (verdict->kind != VSC_SURVIVES || verdict->wound == 0) return;
-  if (isnan(verdict->wound)) {
-    call_wrong(verdict, "the summary does not tell of edges with the body wound round them");
+  if (verdict->kind != VSC_SURVIVES || (verdict->folded == 0 && verdict->wound == 0)) return;
+  if (isnan(verdict->folded) || isnan(verdict->wound)) {
+    call_wrong(verdict, "the summary does not tell of corners inside out, or of edges with the body wound round them");
     return;
   }
   verdict->kind = VSC_INSIDE_OUT;
-  snprintf(verdict->why, sizeof verdict->why, "%.0f edges with the body wound round them in the end", verdict->wound);
+  snprintf(verdict->why, sizeof verdict->why, "%.0f elements inside out at a corner, the body wound round %.0f edges in the end",
+           verdict->folded, verdict->wound);
 }
 
 void vsc_judge(const vsc_stress_case *at, const char *folder, vsc_status status, const vsc_error *error,

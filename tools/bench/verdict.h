@@ -7,7 +7,7 @@
 
 typedef enum vsc_verdict_kind {
   VSC_SURVIVES,  // to the end, with finite numbers and an energy that balances
-  VSC_INSIDE_OUT,  // the same, but elements are inside out then, or the body is wound, as the summary tells
+  VSC_INSIDE_OUT,  // the same, but elements are inside out then, wholly or at a corner, or the body is wound, as the summary tells
   VSC_REFUSED,   // before the first step, with a message that names what is wrong
   VSC_STOPS,     // numerically, with a message that names element or node, place, time and remedy, and the energy where
                  // that did not balance
@@ -25,6 +25,7 @@ typedef struct vsc_verdict {
                         // there is none (equilibria, law paper)
   double J_low, J_high; // extremes of the frames' volume ratios
   double inverted;      // elements inside out at the end
+  double folded;        // hexahedra, wedges and pyramids inside out at a corner at the end
   double wound;         // edges round which the body lies more than once at the end
   double repeated;      // stretches gone again with shorter steps; of implicit runs steps rejected and failed
   double steps;
