@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elements none of whose nodes can move are not evaluated, and nobody can tell.
+// Elements none of whose nodes can move are not evaluated, nor pressures that rest, and nobody can tell.
 #include <math.h>
 
 #include "mech/step_limit.h"
@@ -136,8 +136,43 @@ static void all_others_are_stepped(void **state)
   body_close(&body);
 }
 
+// A block whose boundary is pressed from 1 ms on, or not at all, after some steps.
+static void step_pressed(small_body *body, bool pressed, size_t steps)
+{
+  body_open(body, block_of(3, 3, 3, 2, 0.2), 50);
+  body_hold(body, "x0", 1, 1, 1);
+  body->definition.pressures = &body->pressure;
+  body->definition.pressure_count = pressed;
+  body->pressure = (vsc_pressure_def){.surface = "boundary", .peak = 1, .curve = vsc_default_curve(VSC_CURVE_HALF_SINE)};
+  body->pressure.curve.start = 1;
+  body_build(body);
+  body_start(body);
+  body_shake(body, 0.01);
+  body_steps(body, 0.01, steps);
+}
+
+// A pressure that is 0 at the time costs nothing: where it acts is not looked at, and the body moves to the bit as one
+// without. From when it acts on it does not.
+static void a_pressure_that_rests_is_passed_over(void **state)
+{
+  (void)state;
+  small_body pressed, free;
+  for (int later = 0; later < 2; later++) {
+    step_pressed(&pressed, true, later ? 150 : 50);
+    step_pressed(&free, false, later ? 150 : 50);
+    assert_true(pressed.state->scratch.outside != NULL);
+    assert_true(pressed.state->scratch.pushed == (later == 1));
+    assert_false(free.state->scratch.pushed);
+    const size_t bytes = 4 * free.model->node_count * sizeof(double);
+    assert_true((memcmp(pressed.state->x, free.state->x, bytes) == 0) == (later == 0));
+    body_close(&pressed);
+    body_close(&free);
+  }
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(nobody_can_tell), cmocka_unit_test(all_others_are_stepped)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(nobody_can_tell), cmocka_unit_test(all_others_are_stepped),
+                                     cmocka_unit_test(a_pressure_that_rests_is_passed_over)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -186,8 +186,9 @@ static void load_or_patch(void *context, size_t piece, int thread)
 {
   const evaluation *e = context;
   double *outside = e->scratch->outside;
-  if (outside == NULL || piece > 0) {
-    patch_force(context, piece - (outside != NULL), thread);
+  const bool pushed = e->scratch->pushed;
+  if (!pushed || piece > 0) {
+    patch_force(context, piece - pushed, thread);
     return;
   }
   memset(outside, 0, 4 * e->model->node_count * sizeof *outside);
@@ -290,16 +291,17 @@ void vsc_force_parts(const vsc_model *model, const double *x, const double *w, d
   evaluation e = {model, x, w, time, scratch, force};
   if (terms->nodal_volume) sum_volumes(&e);
   if (terms->smoothed) vsc_smoothed_stress(model, x, w, time, scratch);
-  vsc_parallel_for(model->patch_count + (scratch->outside != NULL), load_or_patch, &e);
+  scratch->pushed = vsc_loads_work(model, time, scratch->load);
+  vsc_parallel_for(model->patch_count + scratch->pushed, load_or_patch, &e);
   vsc_loads_hold(model, x, w, scratch->pull, scratch->outside);
 }
 
 void vsc_force(const vsc_model *model, const double *x, const double *w, double time,
                vsc_scratch *scratch, double *force)
 {
-  const bool all = scratch->outside != NULL || model->terms.gravity;
-  node_pass pass = {model, scratch, scratch->partial, force, all ? 0 : model->own_node_count};
   vsc_force_parts(model, x, w, time, scratch, force);
+  const bool all = scratch->pushed || model->terms.gravity;
+  node_pass pass = {model, scratch, scratch->partial, force, all ? 0 : model->own_node_count};
   for_nodes(&pass, sum_all);
 }
 

@@ -33,7 +33,7 @@ VSC_INLINE vsc_wide vsc_shared_force(const vsc_model *model, const double *parti
 VSC_INLINE vsc_wide vsc_node_force(const vsc_model *model, const vsc_scratch *scratch, const double *force, size_t n)
 {
   vsc_wide f = n < model->own_node_count ? ((const vsc_wide *)force)[n] : vsc_shared_force(model, scratch->partial, n);
-  if (scratch->outside != NULL) f += ((const vsc_wide *)scratch->outside)[n];
+  if (scratch->pushed) f += ((const vsc_wide *)scratch->outside)[n];
   if (model->terms.gravity) f += scratch->load * ((const vsc_wide *)model->weight)[n];
   return f;
 }

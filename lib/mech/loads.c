@@ -290,6 +290,13 @@ double vsc_loads_dissipation(const vsc_model *model, const double *v)
 
 // ---- all
 
+bool vsc_loads_work(const vsc_model *model, double time, double load)
+{
+  for (size_t p = 0; p < model->pressure_count; p++)
+    if (load * vsc_model_pressure(model, p, time) != 0) return true;
+  return model->robin_count > 0;
+}
+
 void vsc_loads_push(const vsc_model *model, const double *x, double time, double load, double *force)
 {
   for (size_t p = 0; p < model->pressure_count; p++) {

@@ -10,6 +10,10 @@
 // Takes a 3 x 3 block (row-major) of the derivative of the force on node i by what node j does.
 typedef void vsc_block_sink(void *context, uint32_t i, uint32_t j, const double K[9]);
 
+// Whether anything at all acts on surfaces: springs or dashpots, or at `time` (ms) the part `load` of a pressure that is not
+// 0 then. Where nothing does, vsc_loads_push and vsc_loads_hold add nothing.
+bool vsc_loads_work(const vsc_model *model, double time, double load);
+
 // Adds to `force` (mN, node_count x 4) the part `load` (1: all) of the pressures at positions x (node_count x 4) and
 // `time` (ms).
 void vsc_loads_push(const vsc_model *model, const double *x, double time, double load, double *force);

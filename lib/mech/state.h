@@ -34,6 +34,7 @@ typedef struct vsc_scratch {
   size_t local_size;
   double *partial;         // partial_count x 4: parts of the forces on shared nodes, mN
   double *outside;         // node_count x 4: forces of loads on surfaces, mN; NULL where there are none
+  bool pushed;             // whether outside has what counts now: loads on surfaces are at work
   double *pull;            // 4 for each row of the largest of model.robins: what springs and dashpots there
                            // pull with, kPa; NULL likewise
   double *volume;          // node_count: deformed volume of the nodes' groups, mm^3
