@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "io/vtk.h"
+#include "tools/plot/bench.h"
 #include "tools/plot/errors.h"
 #include "tools/plot/ink.h"
 #include "tools/plot/outcomes.h"
@@ -21,6 +22,7 @@ typedef struct request {
   const char *polar, *title;  // instead: curves of `viscera calibrate`
   const char *outcomes;       // or what `viscera bench stability` left
   const char *errors;         // or `viscera bench error`
+  const char *bench;          // or other sections of it
   char output[VSC_RESULT_PATH];
   vsc_results results;
   char signals[VSC_RESULT_PATH];  // the CSV
@@ -46,6 +48,7 @@ static void print_help(void)
       "      --title TEXT   their title\n"
       "      --outcomes CSV instead of results: what `viscera bench stability` left\n"
       "      --errors CSV   instead of results: what `viscera bench error` left\n"
+      "      --bench CSV    instead of results: what `viscera bench throughput`, growth, skipping or start left\n"
       "  -h, --help         this text\n\n"
       "Examples:\n"
       "  viscera plot beat\n"
@@ -189,6 +192,9 @@ static vsc_status read_option(int option, request *wish, vsc_error *error)
     case 'E':
       wish->errors = optarg;
       return VSC_OK;
+    case 'B':
+      wish->bench = optarg;
+      return VSC_OK;
     case 'T':
       wish->title = optarg;
       return VSC_OK;
@@ -201,10 +207,14 @@ static vsc_status draw_csv(const request *wish, bool folder, vsc_error *error)
 {
   if (wish->output[0] == '\0' || folder)
     return vsc_fail(error, VSC_INPUT, "--%s: give the PNG by -o, and no folder",
-                    wish->polar != NULL ? "polar" : wish->outcomes != NULL ? "outcomes" : "errors");
+                    wish->polar != NULL      ? "polar"
+                    : wish->outcomes != NULL ? "outcomes"
+                    : wish->errors != NULL   ? "errors"
+                                             : "bench");
   if (wish->polar != NULL) return vsc_polar_draw(wish->polar, wish->title, wish->output, error);
-  return wish->outcomes != NULL ? vsc_outcomes_draw(wish->outcomes, wish->output, error)
-                                : vsc_errors_draw(wish->errors, wish->output, error);
+  if (wish->outcomes != NULL) return vsc_outcomes_draw(wish->outcomes, wish->output, error);
+  return wish->errors != NULL ? vsc_errors_draw(wish->errors, wish->output, error)
+                              : vsc_bench_picture(wish->bench, wish->output, error);
 }
 
 int main(int argc, char **argv)
@@ -215,7 +225,7 @@ int main(int argc, char **argv)
       {"whole", no_argument, NULL, 'w'},        {"help", no_argument, NULL, 'h'},
       {"version", no_argument, NULL, 'v'},      {"polar", required_argument, NULL, 'p'},
       {"title", required_argument, NULL, 'T'},  {"outcomes", required_argument, NULL, 'O'},
-      {"errors", required_argument, NULL, 'E'}, {0}};
+      {"errors", required_argument, NULL, 'E'}, {"bench", required_argument, NULL, 'B'}, {0}};
   if (argc > 1 && (strcmp(argv[1], "--view") == 0 || strcmp(argv[1], "--curves") == 0))
     return vsc_plot_several(argc - 1, argv + 1);
   request wish = {.title = "", .axis = {0, 0, 1}, .time = NAN};
@@ -231,7 +241,7 @@ int main(int argc, char **argv)
     }
     if (read_option(option, &wish, &error) != VSC_OK) return fail(&error);
   }
-  if (wish.polar != NULL || wish.outcomes != NULL || wish.errors != NULL)
+  if (wish.polar != NULL || wish.outcomes != NULL || wish.errors != NULL || wish.bench != NULL)
     return draw_csv(&wish, argc != optind, &error) == VSC_OK ? VSC_OK : fail(&error);
   if (argc - optind != 1) {
     vsc_fail(&error, VSC_INPUT, "give one folder of results; `viscera plot --help` tells more");
