@@ -74,6 +74,11 @@ endif()
 run(${prefix}/${BINDIR}/viscera info ${prefix}/${DATADIR}/viscera/lv.vtu)
 expect("tetrahedra")
 
+run(${prefix}/${BINDIR}/viscera bench start --times 1 -t 1 -o start)
+expect("share/viscera/beat.yaml, 1 starts")
+run(${prefix}/${BINDIR}/viscera bench accuracy --only beam-0.3-quadratic-1 --no-pictures -o accuracy)
+expect("accuracy/accuracy.csv")
+
 # They load their modules when these are needed, and name one that is not there.
 set(scene ${prefix}/${DATADIR}/viscera/block.yaml)
 set(beginning ${prefix}/${BINDIR}/viscera run -q ${scene} -o block --set keep_volume=total --stop)

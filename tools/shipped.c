@@ -22,3 +22,12 @@ const char *vsc_shipped(const char *name, char *path, size_t size)
   snprintf(path, size, "data/%s", name);
   return path;
 }
+
+vsc_status vsc_shipped_check(const char *path, const char *option, vsc_error *error)
+{
+  if (access(path, R_OK) == 0) return VSC_OK;
+  return vsc_fail(error, VSC_INPUT,
+                  "%s: cannot be read; what comes with viscera lies in data/ of its sources or in share/viscera beside "
+                  "the folder of the installed program: run that one, or name another place by %s",
+                  path, option);
+}

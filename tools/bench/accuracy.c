@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "tools/bench/child.h"
+#include "tools/bench/machine.h"
 #include "tools/bench/outcome.h"
 #include "tools/bench/report.h"
 #include "tools/results.h"
@@ -30,7 +31,7 @@ static const char help[] =
     "      --list            only name the cases\n"
     "      --only PATTERN    those whose name holds PATTERN, or is matched by it (* and ?)\n"
     "      --quick           the coarsest mesh of each kind\n"
-    "      --scenes DIR      where the scenes are [data/benchmarks]\n"
+    "      --scenes DIR      where the scenes are [benchmarks, of the data that come with viscera]\n"
     "      --reference DIR   where curves of others are, to compare with [../shared/benchmarks if it is\n"
     "                        there; else such comparisons are skipped]\n"
     "  -s, --set KEY=VALUE   of every scene, after the cases' own settings\n"
@@ -204,8 +205,10 @@ static vsc_status make_folders(const wish *wish, vsc_error *error)
 
 static vsc_status run_all(const wish *wish, vsc_bench_report *report, vsc_error *error)
 {
-  vsc_status status = make_folders(wish, error);
+  vsc_status status = vsc_shipped_check(wish->scenes, "--scenes", error);
+  if (status == VSC_OK) status = make_folders(wish, error);
   if (status != VSC_OK) return status;
+  vsc_machine_say(stdout);
   vsc_bench_print_heading();
   for (vsc_bench_case at = {0}; status == VSC_OK && vsc_bench_next(&at);)
     if (is_wanted(wish, &at)) status = run_case(wish, &at, report, error);
@@ -215,6 +218,7 @@ static vsc_status run_all(const wish *wish, vsc_bench_report *report, vsc_error 
     draw(wish, report, vsc_bench_problems[p]);
   if (status == VSC_OK) status = vsc_bench_write_csv(report, wish->output, error);
   if (status == VSC_OK) status = vsc_bench_write_page(report, wish->output, wish->reference, error);
+  if (status == VSC_OK) printf("written: %s/accuracy.csv, %s/index.html\n", wish->output, wish->output);
   for (size_t k = 0; k < report->count && status == VSC_OK; k++)
     if (vsc_bench_judge(&report->rows[k]) == VSC_BENCH_MISSED)
       status = vsc_fail(error, VSC_NUMERICAL, "some cases failed or missed their targets");
