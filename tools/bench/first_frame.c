@@ -18,6 +18,7 @@
 #include "base/sort.h"
 #include "tools/beside.h"
 #include "tools/bench/machine.h"
+#include "tools/bench/output.h"
 #include "tools/results.h"
 #include "tools/scene_options.h"
 #include "tools/shipped.h"
@@ -26,8 +27,8 @@ static const char help[] =
     "Usage: viscera bench start [OPTION]...\n"
     "How long a user waits: the time from starting the program to the first frame on the disk, taken several times,\n"
     "and what part of a run of 0.1 s with 100 frames a beat goes into input, building, stepping and output.\n\n"
-    "  -o, --output DIR     [start]\n"
-    "      --scene FILE     [data/beat.yaml]\n"
+    "  -o, --output DIR     of the runs, of start.csv and a picture of it, start.png [start]\n"
+    "      --scene FILE     [beat.yaml, of the data that come with viscera]\n"
     "      --times N        starts [20]\n"
     "  -t, --threads N      number of threads (default: all processors)\n"
     "  -h, --help           this text\n\n"
@@ -41,6 +42,7 @@ enum { MOST_STARTS = 1000 };
 typedef struct wish {
   const char *output, *scene;
   int starts;
+  FILE *csv;
 } wish;
 
 typedef struct start {
@@ -93,10 +95,11 @@ static vsc_status time_run(const wish *wish, char **words, start *taken, vsc_err
   return VSC_OK;
 }
 
-static void say_spread(const char *what, double *values, int count)
+static void say_spread(const wish *wish, const char *what, double *values, int count)
 {
   qsort(values, (size_t)count, sizeof *values, vsc_compare_doubles);
   printf("  %-46s %8.3f %8.3f %8.3f\n", what, values[0], values[count / 2], values[count - 1]);
+  fprintf(wish->csv, "to the first frame,\"%s\",%.5g,%.5g,%.5g\n", what, values[count / 2], values[0], values[count - 1]);
 }
 
 static vsc_status bench_starts(const wish *wish, vsc_error *error)
@@ -121,7 +124,7 @@ static vsc_status bench_starts(const wish *wish, vsc_error *error)
     for (int c = INPUT; c < COLUMNS; c++) values[c][k] = vsc_results_number(wish->output, keys[c]);
   }
   printf("%s, %d starts\n  %-46s %8s %8s %8s\n", wish->scene, wish->starts, "seconds", "least", "median", "most");
-  for (int c = 0; c < COLUMNS; c++) say_spread(names[c], values[c], wish->starts);
+  for (int c = 0; c < COLUMNS; c++) say_spread(wish, names[c], values[c], wish->starts);
   return VSC_OK;
 }
 
@@ -134,23 +137,27 @@ static vsc_status bench_shares(const wish *wish, int threads, vsc_error *error)
   start taken;
   const vsc_status status = time_run(wish, words, &taken, error);
   if (status != VSC_OK) return status;
-  const double input = vsc_results_number(wish->output, "input_seconds");
-  const double build = vsc_results_number(wish->output, "build_seconds") +
-                       vsc_results_number(wish->output, "begin_seconds");
-  const double output = vsc_results_number(wish->output, "output_seconds");
-  const double frames = vsc_results_number(wish->output, "frame_cpu_seconds");
-  const double steps = vsc_results_number(wish->output, "wall_seconds") -
-                       vsc_results_number(wish->output, "begin_seconds") - output;
-  printf("  %7d %9.2f %8.1f %8.1f %8.1f %8.1f %8.1f %16.1f\n", threads, taken.all,
-         100 * (taken.all - input - build - output - steps) / taken.all, 100 * input / taken.all,
-         100 * build / taken.all, 100 * steps / taken.all, 100 * output / taken.all, 100 * frames / taken.cpu);
+  enum { LOADING, INPUT, BUILD, STEPS, OUTPUT, PARTS };
+  static const char *const names[PARTS] = {"loading", "input", "build", "steps", "output"};
+  const double begin = vsc_results_number(wish->output, "begin_seconds");
+  double parts[PARTS] = {[INPUT] = vsc_results_number(wish->output, "input_seconds"),
+                         [BUILD] = vsc_results_number(wish->output, "build_seconds") + begin,
+                         [OUTPUT] = vsc_results_number(wish->output, "output_seconds")};
+  parts[STEPS] = vsc_results_number(wish->output, "wall_seconds") - begin - parts[OUTPUT];
+  parts[LOADING] = taken.all - parts[INPUT] - parts[BUILD] - parts[OUTPUT] - parts[STEPS];
+  printf("  %7d %9.2f", threads, taken.all);
+  for (int k = 0; k < PARTS; k++) {
+    printf(" %8.1f", 100 * parts[k] / taken.all);
+    fprintf(wish->csv, "" STOP " on %d thread%s,%s,%.5g,,\n", threads, threads > 1 ? "s" : "", names[k], parts[k]);
+  }
+  printf(" %16.1f\n", 100 * vsc_results_number(wish->output, "frame_cpu_seconds") / taken.cpu);
   return VSC_OK;
 }
 
 static vsc_status bench(const wish *wish, vsc_error *error)
 {
-  mkdir(wish->output, 0777);
   vsc_machine_say(stdout);
+  fprintf(wish->csv, "table,what,seconds,least,most\n");
   vsc_status status = bench_starts(wish, error);
   if (status != VSC_OK) return status;
   puts("\n" STOP " with a frame each " EACH_FRAME ", per cent of the wall clock; frames: per cent of the processor time\n"
@@ -158,6 +165,16 @@ static vsc_status bench(const wish *wish, vsc_error *error)
   status = bench_shares(wish, 1, error);
   if (status == VSC_OK && vsc_parallel_threads() > 1) status = bench_shares(wish, vsc_parallel_threads(), error);
   return status;
+}
+
+static vsc_status bench_into(wish *wish, vsc_error *error)
+{
+  vsc_bench_output output;
+  vsc_status status = vsc_shipped_check(wish->scene, "--scene", error);
+  if (status == VSC_OK) status = vsc_bench_output_begin(&output, wish->output, "start", NULL, error);
+  if (status != VSC_OK) return status;
+  wish->csv = output.csv;
+  return vsc_bench_output_end(&output, bench(wish, error), error);
 }
 
 int vsc_bench_start(int argc, char **argv)
@@ -190,7 +207,7 @@ int vsc_bench_start(int argc, char **argv)
   }
   if (code != VSC_OK) return code;
   vsc_error error;
-  const vsc_status status = bench(&wish, &error);
+  const vsc_status status = bench_into(&wish, &error);
   if (status != VSC_OK) fprintf(stderr, "viscera bench start: %s\n", error.text);
   return (int)status;
 }

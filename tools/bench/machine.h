@@ -16,6 +16,10 @@ typedef struct vsc_machine {
 // Zeros when there is no memory.
 vsc_machine vsc_machine_measure(void);
 
+// The same bandwidth over arrays of `bytes` in all, which may lie in a cache, the best of some tries; 0 when there is no
+// memory.
+double vsc_machine_bandwidth(double bytes);
+
 // One line: processor, compiler, version of the program, threads.
 void vsc_machine_say(FILE *out);
 

@@ -3,77 +3,14 @@
 
 #include <malloc.h>
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "base/mem.h"
 #include "base/parallel.h"
-#include "mesh/quadratic.h"
 #include "run/problem.h"
 #include "solve/explicit.h"
-#include "tools/shapes_block.h"
 
 enum { TIMINGS = 5 };
-#define SHORTEST_TIMING 0.15  // seconds
-
-// ---- meshes
-
-static size_t random_below(size_t count)
-{
-  return (size_t)(((double)rand() / ((double)RAND_MAX + 1)) * (double)count);
-}
-
-static void exchange(void *a, void *b, size_t bytes)
-{
-  char kept[64];
-  memcpy(kept, a, bytes);
-  memcpy(a, b, bytes);
-  memcpy(b, kept, bytes);
-}
-
-// Puts tets and nodes into random order, the same at each call.
-static vsc_status shuffle(vsc_mesh *mesh, vsc_error *error)
-{
-  uint32_t *number, *former;
-  const size_t nodes = mesh->node_count;
-  if (!VSC_NEW(former, nodes)) return vsc_fail_memory(error, "shuffling");
-  if (!VSC_NEW(number, nodes)) {
-    vsc_free(former);
-    return vsc_fail_memory(error, "shuffling");
-  }
-  srand(1);
-  for (size_t n = 0; n < nodes; n++) former[n] = (uint32_t)n;
-  for (size_t n = nodes - 1; n > 0; n--) {
-    const size_t other = random_below(n + 1);
-    exchange(former + n, former + other, sizeof *former);
-    exchange(mesh->nodes + 3 * n, mesh->nodes + 3 * other, 3 * sizeof(double));
-  }
-  for (size_t n = 0; n < nodes; n++) number[former[n]] = (uint32_t)n;
-  for (size_t i = 0; i < 4 * mesh->element_count; i++) mesh->corners[i] = number[mesh->corners[i]];
-  for (size_t t = mesh->element_count - 1; t > 0; t--)
-    exchange(mesh->corners + 4 * t, mesh->corners + 4 * random_below(t + 1), 4 * sizeof(uint32_t));
-  vsc_free(former);
-  vsc_free(number);
-  return VSC_OK;
-}
-
-vsc_status vsc_specimen_mesh(vsc_specimen_kind kind, size_t elements, vsc_mesh **mesh, vsc_error *error)
-{
-  vsc_block_shape shape = vsc_block_default();
-  const bool hexes = kind == VSC_SPECIMEN_HEXES;
-  size_t cells = 1;
-  while ((hexes ? 1 : 5) * cells * cells * cells < elements) cells++;
-  for (int i = 0; i < 3; i++) {
-    shape.cells[i] = cells;
-    shape.size[i] = (double)cells;
-  }
-  vsc_status status = vsc_block_of(&shape, hexes ? VSC_BLOCK_HEXES : VSC_BLOCK_TETS, mesh, error);
-  if (status == VSC_OK && kind == VSC_SPECIMEN_SHUFFLED) status = shuffle(*mesh, error);
-  if (status == VSC_OK && kind == VSC_SPECIMEN_QUADRATIC) status = vsc_mesh_raise(mesh, "the block", error);
-  return status;
-}
-
-// ---- tissues
+#define SHORTEST_TIMING 0.15  // seconds, but
+#define MOST_STEPS 4000       // of some elements only
 
 static vsc_material_def tissue(const vsc_specimen *specimen)
 {
@@ -92,11 +29,30 @@ static vsc_material_def tissue(const vsc_specimen *specimen)
   material.stabilization = 10;
   material.active.kind = specimen->active;
   material.active.tension = 1;
-  if (specimen->resting) {
-    material.active.curve = vsc_default_curve(VSC_CURVE_HALF_SINE);
-    material.active.curve.start = 1e6;
-  }
   return material;
+}
+
+// Fills a scene that stays where it is in memory.
+static void make_scene(const vsc_specimen *specimen, const vsc_mesh *mesh, vsc_specimen_scene *scene)
+{
+  *scene = (vsc_specimen_scene){.mesh = mesh, .definition = vsc_default_definition()};
+  vsc_definition *definition = &scene->definition;
+  for (size_t i = 0; i < 3 * mesh->node_count; i++) scene->size[i % 3] = fmax(scene->size[i % 3], mesh->nodes[i]);
+  for (int m = 0; m < 2; m++) scene->material[m] = tissue(specimen);
+  definition->materials = scene->material;
+  definition->material_count = 1;
+  definition->sets = &scene->set;
+  definition->surfaces = &scene->surface;
+  definition->supports = &scene->support;
+  definition->pressures = &scene->pressure;
+  definition->robins = &scene->robin;
+  definition->obstacles = &scene->obstacle;
+  definition->membranes = &scene->membrane;
+  definition->volume = specimen->nodal ? VSC_VOLUME_NODAL : VSC_VOLUME_ELEMENT;
+  definition->tets = specimen->smoothed ? VSC_TETS_SMOOTHED : VSC_TETS_PLAIN;
+  definition->end_time = 1e5;
+  scene->material[0].inclusions = &scene->inclusion;
+  if (specimen->feature != NULL) specimen->feature(scene);
 }
 
 // Fibres along x.
@@ -106,19 +62,6 @@ static vsc_axes *axes_of(const vsc_mesh *mesh)
   for (size_t e = 0; axes != NULL && e < mesh->element_count; e++)
     vsc_axes_set(axes, e, (double[3]){1, 0, 0}, NULL);
   return axes;
-}
-
-// The nodes of the half at smaller x.
-static vsc_selector half_of(const vsc_mesh *mesh)
-{
-  vsc_selector half = {.name = "half", .kind = VSC_SELECT_BOX};
-  double most = 0;
-  for (size_t n = 0; n < mesh->node_count; n++) most = fmax(most, mesh->nodes[3 * n]);
-  for (int i = 0; i < 3; i++) {
-    half.box_low[i] = -1;
-    half.box_high[i] = i == 0 ? 0.5 * most : most + 1;
-  }
-  return half;
 }
 
 static double allocated(void)
@@ -132,69 +75,90 @@ static double now(int threads)
   return threads == 1 ? vsc_cpu_seconds() : vsc_wall_seconds();
 }
 
-static vsc_status time_steps(const vsc_model *model, vsc_state *state, int threads, double *seconds,
-                             vsc_error *error)
+// Packs are read once, by the volume pass a third of them again; nodes have positions, velocities, forces and masses, 13
+// numbers of four doubles with damping, 9 without, 2 more with volumes and pressures. Smoothed tets are read twice and
+// leave their deformation for their edges, which leave their stress for them.
+static double traffic_of(const vsc_model *model)
 {
-  const double dt = state->limit.step;
-  double count = 2;
-  *seconds = INFINITY;
-  for (int k = 0; k < TIMINGS;) {
-    const double start = now(threads);
-    const vsc_status status = vsc_steps(model, state, dt, count, error);
-    if (status != VSC_OK) return status;
-    const double passed = now(threads) - start;
-    *seconds = fmin(*seconds, passed / count);
-    if (passed < SHORTEST_TIMING && count < 1e6)
-      count = ceil(count * fmin(1.5 * SHORTEST_TIMING / fmax(passed, 1e-4), 100));
-    else
-      k++;
-  }
-  return VSC_OK;
+  const double nodes = (double)model->node_count, packs = (double)model->pack_count;
+  const double edges = (double)model->smoothing.pack_count, matrices = 4 * 12 * sizeof(double);
+  double bytes = (double)model->store_size + 32 * nodes * (model->terms.damping ? 13 : 9);
+  if (model->terms.nodal_volume) bytes += 128 * packs + 64 * nodes;
+  if (model->terms.smoothed)
+    bytes += (double)model->store_size + 2 * matrices * packs + edges * (sizeof(vsc_edge_frame) + 2 * matrices);
+  return bytes;
 }
 
-static vsc_status start_on(const vsc_model *model, int threads, vsc_state **state, vsc_error *error)
+static vsc_status time_steps(vsc_specimen_run *run, int threads, double *seconds, vsc_error *error)
+{
+  const double dt = run->state->limit.step;
+  for (;;) {
+    const double start = now(threads);
+    const vsc_status status = vsc_steps(run->model, run->state, dt, run->steps, error);
+    if (status != VSC_OK) return status;
+    const double passed = now(threads) - start;
+    *seconds = fmin(*seconds, passed / run->steps);
+    if (passed >= SHORTEST_TIMING || run->steps >= MOST_STEPS) return VSC_OK;
+    run->steps = fmin(ceil(run->steps * fmin(1.5 * SHORTEST_TIMING / fmax(passed, 1e-4), 100)), MOST_STEPS);
+  }
+}
+
+static vsc_status start_on(vsc_specimen_run *run, int threads, vsc_error *error)
 {
   vsc_parallel_set_threads(threads);
-  const vsc_status status = vsc_state_create(model, state, error);
-  return status == VSC_OK ? vsc_start(model, *state, error) : status;
+  vsc_state_free(run->state);
+  run->state = NULL;
+  run->steps = 2;
+  const vsc_status status = vsc_state_create(run->model, &run->state, error);
+  return status == VSC_OK ? vsc_start(run->model, run->state, error) : status;
+}
+
+vsc_status vsc_specimen_open(const vsc_specimen *specimen, const vsc_mesh *mesh, vsc_specimen_run *run,
+                             vsc_specimen_cost *cost, vsc_error *error)
+{
+  vsc_specimen_scene scene;
+  *run = (vsc_specimen_run){0};
+  *cost = (vsc_specimen_cost){
+      .elements = mesh->element_count, .nodes = mesh->node_count, .one = INFINITY, .all = INFINITY};
+  make_scene(specimen, mesh, &scene);
+  vsc_axes *axes = axes_of(mesh);
+  if (axes == NULL) return vsc_fail_memory(error, "the bench");
+  vsc_parallel_set_threads(1);
+  const double before = allocated(), start = vsc_cpu_seconds();
+  vsc_status status = vsc_model_build(mesh, axes, &scene.definition, &run->model, error);
+  if (status == VSC_OK) status = start_on(run, 1, error);
+  cost->build = vsc_cpu_seconds() - start;
+  cost->bytes = allocated() - before;
+  if (status == VSC_OK) cost->traffic = traffic_of(run->model);
+  vsc_axes_free(axes);
+  return status;
+}
+
+vsc_status vsc_specimen_step(vsc_specimen_run *run, double *seconds, vsc_error *error)
+{
+  vsc_parallel_set_threads(1);
+  return time_steps(run, 1, seconds, error);
+}
+
+void vsc_specimen_close(vsc_specimen_run *run)
+{
+  vsc_state_free(run->state);
+  vsc_model_free(run->model);
+  *run = (vsc_specimen_run){0};
+  vsc_parallel_set_threads(0);
 }
 
 vsc_status vsc_specimen_time(const vsc_specimen *specimen, const vsc_mesh *mesh, bool all,
                              vsc_specimen_cost *cost, vsc_error *error)
 {
-  vsc_material_def material = tissue(specimen);
-  vsc_definition definition = vsc_default_definition();
-  definition.materials = &material;
-  definition.material_count = 1;
-  definition.volume = specimen->nodal ? VSC_VOLUME_NODAL : VSC_VOLUME_ELEMENT;
-  definition.tets = specimen->smoothed ? VSC_TETS_SMOOTHED : VSC_TETS_PLAIN;
-  definition.end_time = 1e5;
-  vsc_selector half = half_of(mesh);
-  vsc_support_def support = {.set = "half", .held = {1, 1, 1}};
-  definition.sets = &half;
-  definition.supports = &support;
-  definition.set_count = definition.support_count = specimen->held;
+  vsc_specimen_run run;
   vsc_parallel_set_threads(0);
   const int threads = vsc_parallel_threads();
-  *cost = (vsc_specimen_cost){.elements = mesh->element_count, .nodes = mesh->node_count};
-  vsc_axes *axes = axes_of(mesh);
-  if (axes == NULL) return vsc_fail_memory(error, "the bench");
-  vsc_model *model = NULL;
-  vsc_state *state = NULL;
-  vsc_parallel_set_threads(1);
-  const double before = allocated(), start = vsc_cpu_seconds();
-  vsc_status status = vsc_model_build(mesh, axes, &definition, &model, error);
-  if (status == VSC_OK) status = start_on(model, 1, &state, error);
-  cost->build = vsc_cpu_seconds() - start;
-  cost->bytes = allocated() - before;
-  if (status == VSC_OK) status = time_steps(model, state, 1, &cost->one, error);
-  vsc_state_free(state);
-  state = NULL;
-  if (status == VSC_OK && all) status = start_on(model, threads, &state, error);
-  if (status == VSC_OK && all) status = time_steps(model, state, threads, &cost->all, error);
-  vsc_state_free(state);
-  vsc_model_free(model);
-  vsc_axes_free(axes);
-  vsc_parallel_set_threads(0);
+  vsc_status status = vsc_specimen_open(specimen, mesh, &run, cost, error);
+  for (int k = 0; k < TIMINGS && status == VSC_OK; k++) status = time_steps(&run, 1, &cost->one, error);
+  if (status == VSC_OK && all) status = start_on(&run, threads, error);
+  for (int k = 0; k < TIMINGS && status == VSC_OK && all; k++)
+    status = time_steps(&run, threads, &cost->all, error);
+  vsc_specimen_close(&run);
   return status;
 }

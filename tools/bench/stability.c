@@ -18,9 +18,9 @@
 #include "solve/explicit.h"
 #include "tools/bench/child.h"
 #include "tools/bench/machine.h"
+#include "tools/bench/output.h"
 #include "tools/bench/stability_report.h"
 #include "tools/bench/true_step.h"
-#include "tools/run_plot.h"
 #include "tools/scene_options.h"
 #include "tools/verbs.h"
 
@@ -223,11 +223,7 @@ static vsc_status bench(const wish *wish, int workers, vsc_error *error)
   if (status == VSC_OK) status = vsc_stability_write(rows, count, wish->output, error);
   if (status == VSC_OK) {
     vsc_stability_say(rows, count);
-    char csv[PATH_MAX], picture[PATH_MAX];
-    snprintf(csv, sizeof csv, "%s/stability.csv", wish->output);
-    snprintf(picture, sizeof picture, "%s/stability.png", wish->output);
-    char *words[] = {"plot", "--outcomes", csv, "-o", picture, NULL};
-    vsc_run_plot(words);
+    vsc_bench_draw(wish->output, "stability", "--outcomes");
     if (!vsc_stability_holds(rows, count))
       status = vsc_fail(error, VSC_NUMERICAL, "not all is well; %s has the scenes that went wrong", wish->output);
   }

@@ -12,9 +12,9 @@
 #include "io/replace.h"
 #include "tools/bench/child.h"
 #include "tools/bench/machine.h"
+#include "tools/bench/output.h"
 #include "tools/compare_fields.h"
 #include "tools/results.h"
-#include "tools/run_plot.h"
 #include "tools/shipped.h"
 #include "tools/verbs.h"
 
@@ -343,15 +343,6 @@ static vsc_status bench_all(const wish *wish, vsc_error *error)
   return status;
 }
 
-static void draw(const wish *wish)
-{
-  char csv[PATH_MAX], picture[PATH_MAX];
-  snprintf(csv, sizeof csv, "%.4000s/error.csv", wish->output);
-  snprintf(picture, sizeof picture, "%.4000s/error.png", wish->output);
-  char *words[] = {"plot", "--errors", csv, "-o", picture, NULL};
-  vsc_run_plot(words);
-}
-
 int vsc_bench_error(int argc, char **argv)
 {
   static const struct option options[] = {{"output", required_argument, NULL, 'o'},
@@ -383,11 +374,15 @@ int vsc_bench_error(int argc, char **argv)
   }
   char file[PATH_MAX], whole[PATH_MAX];
   vsc_replacement table;
+  vsc_error error;
+  if (vsc_shipped_check(wish.scene, "--scene", &error) != VSC_OK) {
+    fprintf(stderr, "viscera bench error: %s\n", error.text);
+    return 2;
+  }
   mkdir(wish.output, 0777);
   // names in a scene's settings count from the scene's folder
   if (realpath(wish.output, whole) != NULL) wish.output = whole;
   snprintf(file, sizeof file, "%.4000s/error.csv", wish.output);
-  vsc_error error;
   if (vsc_replace_begin(file, &table, &error) != VSC_OK) {
     fprintf(stderr, "viscera bench error: %s\n", error.text);
     return 4;
@@ -402,6 +397,6 @@ int vsc_bench_error(int argc, char **argv)
   const vsc_status closed = vsc_replace_end(&table, false, &error);
   if (closed != VSC_OK) fprintf(stderr, "viscera: %s\n", error.text);
   if (closed != VSC_OK && status == VSC_OK) return 4;
-  if (status == VSC_OK) draw(&wish);
+  if (status == VSC_OK) vsc_bench_draw(wish.output, "error", "--errors");
   return (int)status;
 }
