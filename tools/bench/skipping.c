@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "tools/bench/looking.h"
 #include "tools/bench/machine.h"
 #include "tools/bench/specimen.h"
 #include "tools/bench/step_options.h"
@@ -211,7 +212,7 @@ static vsc_status time_rows(const vsc_step_wish *wish, const vsc_mesh *mesh, vsc
     const vsc_status status = time_row(&rows[k], mesh, &each, &over, error);
     if (status != VSC_OK) return status;
     const char *name = rows[k].specimen.name, *without = rows[k].over >= 0 ? rows[rows[k].over].specimen.name : "";
-    printf("%-40s %6.1f %6.2f  %s\n", name, each, over, without);
+    printf("%-44s %6.1f %6.2f  %s\n", name, each, over, without);
     fflush(stdout);
     if (wish->output.csv != NULL)
       fprintf(wish->output.csv, "\"%s\",%.4g,%.4g,\"%s\"\n", name, each, over, without);
@@ -236,5 +237,7 @@ int vsc_bench_skipping(int argc, char **argv)
   if (wish.output.csv != NULL) fprintf(wish.output.csv, "what,ns a tet,over,of\n");
   if (status == VSC_OK) status = time_rows(&wish, mesh, &error);
   vsc_mesh_free(mesh);
+  if (status == VSC_OK && wish.output.folder != NULL)
+    status = vsc_bench_looking(wish.output.csv, wish.output.folder, tets, &error);
   return vsc_step_finish(&wish, status, &error);
 }

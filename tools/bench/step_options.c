@@ -13,7 +13,7 @@ static const char help[] =
     "block, on one thread by processor time, on all threads by the clock; beside it what the processor could\n"
     "do at most, measured in the same run. growth: how time and memory of a step grow with the number of\n"
     "tets. skipping: what each feature costs while it is used, and while it is there but idle, timed in turns\n"
-    "with the block that has nothing of it.\n\n"
+    "with the block that has nothing of it; with -o also whole runs that points and signals are asked for.\n\n"
     "  -o, --output DIR    the table (SECTION.csv) and a picture of it (SECTION.png) go to DIR\n"
     "      --csv FILE      or the table alone to FILE\n"
     "  -n, --elements N    one block of about N elements; growth: blocks up to N\n"
