@@ -19,6 +19,11 @@
 #define SHORTEST_TRUST 0.25
 #define LONGEST_TRUST 4.0
 enum { TRUSTED_STEPS = 128 };  // or as long as these take: an estimate costs as much as five
+// An estimate is not trusted for longer than the activity of a material changes by less than this part of what it is and a
+// sixteenth of its range, found among so many equal parts of the interval.
+#define TRUSTED_CHANGE 0.125
+#define BESIDE 0.0625
+enum { LOOKS_AHEAD = 16 };
 // A stable step below this part of the first one, or of that at rest, belongs to a body that is torn or crushed.
 #define COLLAPSE 1e-3
 // A start is given the time until its first estimate to come back: not below this, where that would take for ever.
@@ -222,6 +227,22 @@ static double longest_trust(const vsc_limit *limit)
   return fmax(LONGEST_TRUST, TRUSTED_STEPS * limit->step);
 }
 
+// For how long the estimate is trusted, ms. Where each element has a delay of its own some are always about to change:
+// what is stiffest hardly does.
+static double trusted_span(const vsc_model *model, const vsc_limit *limit)
+{
+  int looks = LOOKS_AHEAD;
+  for (size_t m = 0; m < model->material_count && model->delay == NULL; m++) {
+    const vsc_curve *curve = &model->materials[m].curve;
+    if (curve->values == NULL) continue;
+    const double since = limit->time - model->materials[m].delay, then = vsc_curve_value(curve, since);
+    const double most = TRUSTED_CHANGE * (fabs(then) + BESIDE * curve->range);
+    for (int k = 1; k < looks; k++)
+      if (fabs(vsc_curve_value(curve, since + limit->interval * k / LOOKS_AHEAD) - then) > most) looks = k > 1 ? k - 1 : 1;
+  }
+  return limit->interval * looks / LOOKS_AHEAD;
+}
+
 // The stable step of the body at rest, where the state is elsewhere: 0 where it is not. Leaves no trace in the estimate.
 static double step_at_rest(const vsc_model *model, vsc_state *state)
 {
@@ -309,9 +330,10 @@ static vsc_status refresh_limit(const vsc_model *model, vsc_state *state, vsc_er
 {
   vsc_limit *limit = &state->limit;
   const double before = limit->eigenvalue;
+  const bool whole = state->time - limit->time >= limit->interval * (1 - 1e-9);
   vsc_limit_refresh(model, state, state->time, WARM_ITERATIONS);
   const double rise = (limit->eigenvalue - before) / before;
-  if (fabs(rise) < 0.02) limit->interval = fmin(2 * limit->interval, longest_trust(limit));
+  if (whole && fabs(rise) < 0.02) limit->interval = fmin(2 * limit->interval, longest_trust(limit));
   if (fabs(rise) > 0.10) limit->interval = fmax(0.5 * limit->interval, SHORTEST_TRUST);
   limit->time = state->time;
   const vsc_status status = check_collapse(model, state, COLLAPSE, error);
@@ -368,11 +390,11 @@ static vsc_status fixed_steps_to(const vsc_model *model, vsc_state *state, doubl
 vsc_status vsc_advance(const vsc_model *model, vsc_state *state, double until, vsc_error *error)
 {
   while (state->time < until * (1 - 1e-12)) {
-    if (state->time - state->limit.time >= state->limit.interval * (1 - 1e-9)) {
+    if (state->time - state->limit.time >= trusted_span(model, &state->limit) * (1 - 1e-9)) {
       const vsc_status status = refresh_limit(model, state, error);
       if (status != VSC_OK) return status;
     }
-    const double stop = fmin(until, state->limit.time + state->limit.interval);
+    const double stop = fmin(until, state->limit.time + trusted_span(model, &state->limit));
     vsc_status status = model->step > 0 ? fixed_steps_to(model, state, stop, error)
                                         : step_to(model, state, stop, until, error);
     if (status == VSC_OK) status = check_finite(model, state, error);
