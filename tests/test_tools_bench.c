@@ -181,6 +181,67 @@ static void pictures_of_tables(void **state)
   assert_int_equal(shell("test -e no.png"), 1);
 }
 
+// Of a row that bench error has left, of that table: its elements, its error in per cent (NAN: the reference).
+static void error_row(const char *table, const char *what, double *elements, double *percent)
+{
+  static char text[PROGRAM_TEXT];
+  char wanted[128];
+  double cost;
+  load_text("errors/error.csv", text, sizeof text);
+  snprintf(wanted, sizeof wanted, "\",\"%s\",", what);  // the series stands before it
+  const char *row = strstr(text, wanted);
+  if (row == NULL) fail_msg("no %s in '%s'", what, text);
+  assert_int_equal(sscanf(row + strlen(wanted), "%lf,%lf,%lf", elements, &cost, percent), 3);
+  while (row > text && row[-1] != '\n') row--;
+  assert_memory_equal(row, table, strlen(table));
+}
+
+static void bench_errors(const char *table, const char *end)
+{
+  char command[512];
+  snprintf(command, sizeof command, "sed 's/end: 300 ms/end: %s/; s/start: 10 ms/start: 0 ms/' "
+           "'" VSC_SOURCE_DIR "/data/benchmarks/beating_ventricle.yaml' > short.yaml", end);
+  must(command);
+  snprintf(command, sizeof command, "$V bench error --quick --only %s --scene short.yaml -o errors", table);
+  must(command);
+}
+
+// The first moments of a beat: what all are compared with is finer than they are, and every kind of element is there.
+static void errors_are_told_against_a_finer_mesh(void **state)
+{
+  (void)state;
+  static const char *const kinds[] = {"quadratic tets, curved, explicit", "quadratic tets, curved, implicit 1e-5",
+                                      "quadratic tets, straight, coupled for 0.05 ms", "tets, node-averaged",
+                                      "tets, each alone", "tets, smoothed", "hexahedra", "wedges"};
+  double elements, finer, fewer, percent;
+  bench_errors("space", "1 ms");
+  error_row("space", "quadratic tets, curved, coupled for 0.01 ms", &finer, &percent);
+  assert_true(isnan(percent));
+  error_row("space", "quadratic tets, curved, coupled for 0.05 ms", &elements, &percent);
+  assert_true(finer >= 2 * elements && percent > 0);
+  for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
+    error_row("space", kinds[k], &fewer, &percent);
+    assert_true(fewer <= elements && percent > 0 && percent < 100);
+  }
+}
+
+// Implicit steps have the length that is asked for: their error falls with it.
+static void errors_fall_with_the_step(void **state)
+{
+  (void)state;
+  static const char *const shorter[] = {"implicit, steps of 2 ms", "implicit, steps of 1 ms", "implicit, steps of 0.5 ms"};
+  double elements, error, last;
+  bench_errors("time", "20 ms");
+  error_row("time", "explicit, safety 0.1", &elements, &error);
+  assert_true(isnan(error));
+  error_row("time", "implicit, steps of 4 ms", &elements, &last);
+  for (int k = 0; k < 3; k++) {
+    error_row("time", shorter[k], &elements, &error);
+    assert_true(0 < error && error < 0.4 * last);
+    last = error;
+  }
+}
+
 // The first frame is on the disk before the program has ended, and shares of the time are parts of it.
 static void starts_are_timed(void **state)
 {
@@ -276,6 +337,8 @@ int main(void)
       cmocka_unit_test(a_mirrored_cloud_is_one_block),
       cmocka_unit_test(sections_leave_tables_and_pictures),
       cmocka_unit_test(pictures_of_tables),
+      cmocka_unit_test(errors_are_told_against_a_finer_mesh),
+      cmocka_unit_test(errors_fall_with_the_step),
       cmocka_unit_test(starts_are_timed),
       cmocka_unit_test(data_are_found_from_anywhere),
       cmocka_unit_test(stresses_are_judged),

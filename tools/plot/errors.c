@@ -12,7 +12,7 @@
 static const char *title_of(const char *name)
 {
   return strcmp(name, "time") == 0        ? "one mesh, against far shorter steps"
-         : strcmp(name, "space") == 0     ? "meshes, against the finest of the first kind"
+         : strcmp(name, "space") == 0     ? "meshes, against a finer one of curved quadratic tets"
          : strcmp(name, "real_time") == 0 ? "a heart in real time, against short steps"
          : strcmp(name, "slivers") == 0   ? "a bar with slivers, against short steps"
                                           : NULL;
