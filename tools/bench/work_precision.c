@@ -25,7 +25,7 @@ static const char help[] =
     "Error in time: against the same mesh in far shorter steps. Error in space and time: against a finer mesh of\n"
     "curved quadratic tets in short steps. Real time: ten thousand tets on all processors, with steps made longer by\n"
     "added mass and inertia of neighbours against one another. Slivers: a bar of which some elements would make steps\n"
-    "short. After each which setting is the cheapest for 1, 0.1 and 0.01 %. A quarter of an hour; results go to DIR.\n\n"
+    "short. After each which setting is the cheapest for 1, 0.1 and 0.01 %. Ten minutes of one core; results go to DIR.\n\n"
     "  -o, --output DIR     [error]\n"
     "      --scene FILE     of time and space [data/benchmarks/beating_ventricle.yaml]\n"
     "      --only TABLE     time, space, real_time or slivers\n"
