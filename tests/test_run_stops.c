@@ -50,7 +50,7 @@ static void test_repeated_with_shorter_steps(void **state)
 static void test_lost_numbers(void **state)
 {
   (void)state;
-  assert_int_equal(shell("$V run block.yaml -q -o lost --set 'pressures=[{surface: end, peak: 1e12 kPa}]'"), 3);
+  assert_int_equal(shell("$V run block.yaml -q -o lost --set 'pressures=[{surface: end, peak: 1e10 kPa}]'"), 3);
   assert_int_equal(line_count(complained), 1);
   assert_holds(complained, " the position of node ");
   assert_holds(complained, ", at rest at (20, ");
@@ -59,6 +59,16 @@ static void test_lost_numbers(void **state)
   assert_string_equal(summary("lost", "outcome"), "failed");
   assert_true(number("lost", "stretches_repeated_with_shorter_steps") == 3);
   must("$V info lost/checkpoint.h5");
+}
+
+// One that leaves next to no step is told before the first, which would not end in any time: with the term behind it.
+static void test_loads_beyond_any_step(void **state)
+{
+  (void)state;
+  assert_int_equal(shell("$V run block.yaml -q -o beyond --set 'pressures=[{surface: end, peak: 1e20 kPa}]'"), 3);
+  assert_int_equal(line_count(complained), 1);
+  assert_holds(complained, "at 0 ms the stable step has collapsed from ");
+  assert_holds(complained, " is that of pressure: ");
 }
 
 // What went well in the end leaves no message.
@@ -297,6 +307,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_repeated_with_shorter_steps),
       cmocka_unit_test(test_lost_numbers),
+      cmocka_unit_test(test_loads_beyond_any_step),
       cmocka_unit_test(test_repeated_without_a_message),
       cmocka_unit_test(test_steps_grow_again),
       cmocka_unit_test(test_steps_that_rows_cut),

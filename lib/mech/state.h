@@ -18,7 +18,8 @@ typedef struct vsc_limit {
   double interval;    // how long the estimate is trusted, ms
   double refreshes;   // estimates so far
   double first;       // the step that was allowed at the start, ms
-  double rest;        // that of the body at rest, where it starts elsewhere (not kept by checkpoints); else 0, ms
+  double rest;        // that of the body at rest, where it starts elsewhere or loads leave it next to no step; else 0 (not
+                      // kept by checkpoints), ms
   double least;       // the shortest that any estimate has allowed, ms
   double span;        // time gone through in steps that were allowed when they were taken, ms
   double caution;     // part of the allowed step that is taken: 1, but where energy did not balance with that

@@ -243,21 +243,37 @@ static double trusted_span(const vsc_model *model, const vsc_limit *limit)
   return limit->interval * looks / LOOKS_AHEAD;
 }
 
-// The stable step of the body at rest, where the state is elsewhere: 0 where it is not. Leaves no trace in the estimate.
-static double step_at_rest(const vsc_model *model, vsc_state *state)
+// The stable step of the body at rest under the part `load` of what it bears. Leaves no trace in the estimate.
+static double step_at_rest(const vsc_model *model, vsc_state *state, double load)
 {
-  const size_t bytes = 4 * model->node_count * sizeof *state->x;
-  if (memcmp(state->x, model->rest, bytes) == 0) return 0;
   const vsc_limit before = state->limit;
+  const double borne = state->scratch.load;
   double *x = state->x;
   state->x = (double *)model->rest;
+  state->scratch.load = load;
   vsc_limit_refresh(model, state, state->time, vsc_limit_enough(model));
+  state->scratch.load = borne;
   state->x = x;
   const double step = state->limit.step;
   state->limit = before;
-  memset(state->limit.mode, 0, bytes);
+  memset(state->limit.mode, 0, 4 * model->node_count * sizeof *state->x);
   state->scratch.still_known = false;
   return isfinite(step) ? step : 0;
+}
+
+static bool is_at_rest(const vsc_model *model, const vsc_state *state)
+{
+  return memcmp(state->x, model->rest, 4 * model->node_count * sizeof *state->x) == 0;
+}
+
+// A first step that is far below what tissue alone allows comes of viscosity or of loads: what it is without these is found.
+static void doubt_loads(const vsc_model *model, vsc_state *state, double allowed)
+{
+  size_t slot;
+  const double bound = vsc_limit_bound(model, &state->scratch, &slot);
+  if (state->limit.rest > 0 || !(bound > 0) || allowed > COLLAPSE_AT_START * 2 / sqrt(bound)) return;
+  state->limit.rest = step_at_rest(model, state, 0);
+  vsc_limit_refresh(model, state, state->time, vsc_limit_enough(model));
 }
 
 // Fails where the stable step is below `part` of that at the start or at rest.
@@ -282,7 +298,7 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
     return vsc_fail(error, VSC_INPUT, "vsc_start: the model is not to be stepped explicitly: call vsc_solve_start");
   const vsc_status ready = vsc_keep_volume_ready(model, error);
   if (ready != VSC_OK) return ready;
-  state->limit.rest = step_at_rest(model, state);
+  state->limit.rest = is_at_rest(model, state) ? 0 : step_at_rest(model, state, state->scratch.load);
   vsc_supports_place(model, state->time, 1, state->x);
   const double busiest = busiest_time(model, state);
   vsc_limit_refresh(model, state, busiest, vsc_limit_enough(model));
@@ -298,6 +314,7 @@ vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error)
                     "use `step: auto`, a smaller step, or `force: true` to see what happens",
                     model->step, allowed / model->safety, state->limit.step / model->safety,
                     active_step / model->safety);
+  doubt_loads(model, state, allowed);
   // what bodies are set in motion with must not change the volumes that they keep
   if (model->kept.count > 0 && model->velocity != NULL) {
     const vsc_status status = vsc_keep_volume_settle(model, state, allowed, error);

@@ -8,7 +8,8 @@
 // Prepares a new state for stepping: the first estimate of the stable step, at rest and at full
 // activation (the smaller counts), and the first acceleration. Refuses (VSC_INPUT) a user's step
 // above the stable one, with both numbers, unless the model forces it. VSC_NUMERICAL, with a node, where the
-// state is so crushed that its stable step is below 1e-4 of that at rest, which the first steps do not exceed. Where volumes
+// state is so crushed, or what loads it so large, that its stable step is below 1e-4 of that at rest, or without loads, which
+// the first steps do not exceed. Where volumes
 // are kept, vsc_keep_volume_ready.
 // Where masses are coupled the model's initial velocity times its lumped masses is the momentum that the body has.
 vsc_status vsc_start(const vsc_model *model, vsc_state *state, vsc_error *error);
