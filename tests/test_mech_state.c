@@ -31,10 +31,32 @@ static void a_node_that_moves_is_told_first(void **state)
   body_close(&body);
 }
 
+// In messages nodes have their numbers in the file; where these are the mesh's own the model keeps none.
+static void nodes_are_called_as_in_the_file(void **state)
+{
+  (void)state;
+  for (uint32_t before = 0; before < 8; before += 7) {
+    small_body body;
+    char text[VSC_NODE_TEXT], wanted[32];
+    vsc_mesh *mesh = block_of(2, 2, 2, 2, 0);
+    for (size_t n = 0; n < mesh->node_count; n++) mesh->node_source[n] += before;
+    for (size_t e = 0; e < mesh->element_count; e++) mesh->element_source[e] += 2 * before;
+    body_open(&body, mesh, 50);
+    body_build(&body);
+    assert_true((body.model->node_source != NULL) == (before > 0) && (body.model->element_source != NULL) == (before > 0));
+    for (size_t n = 0; n < body.model->node_count; n++) {
+      snprintf(wanted, sizeof wanted, "node %u, at rest at (", body.model->mesh_node[n] + before);
+      assert_memory_equal(vsc_name_node(body.model, n, text, sizeof text), wanted, strlen(wanted));
+    }
+    body_close(&body);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_node_that_moves_is_told_first),
+      cmocka_unit_test(nodes_are_called_as_in_the_file),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -71,6 +71,70 @@ static void test_loads_beyond_any_step(void **state)
   assert_holds(complained, " is that of pressure: ");
 }
 
+// A bar of three cubes of six tets each, behind `before` points that nothing uses and as many cells that are no elements.
+static void write_bar(const char *name, int before)
+{
+  static const int paths[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
+  FILE *file = fopen(in_folder(name), "w");
+  assert_non_null(file);
+  fprintf(file, "# vtk DataFile Version 3.0\nbar\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS %d double\n", 16 + before);
+  for (int k = 0; k < before; k++) fputs("99 99 99\n", file);
+  for (int p = 0; p < 16; p++) fprintf(file, "%d %d %d\n", p % 4, p / 4 % 2, p / 8);
+  fprintf(file, "CELLS %d %d\n", 18 + before, 5 * 18 + 4 * before);
+  for (int k = 0; k < before; k++) fprintf(file, "3 %d %d %d\n", before, before + 4, before + 1);
+  for (int t = 0; t < 18; t++) {
+    static const int steps[3] = {1, 4, 8};
+    int corner[4] = {before + t / 6};
+    for (int i = 0; i < 3; i++) corner[i + 1] = corner[i] + steps[paths[t % 6][i]];
+    const int odd = t % 6 > 2;
+    fprintf(file, "4 %d %d %d %d\n", corner[0], corner[1], corner[2 + odd], corner[3 - odd]);
+  }
+  fprintf(file, "CELL_TYPES %d\n", 18 + before);
+  for (int c = 0; c < 18 + before; c++) fputs(c < before ? "5\n" : "10\n", file);
+  fclose(file);
+}
+
+// The number behind `words` in what was complained of.
+static long number_behind(const char *words)
+{
+  const char *at = strstr(complained, words);
+  if (at == NULL) fail_msg("no '%s' in '%s'", words, complained);
+  return strtol(at + strlen(words), NULL, 10);
+}
+
+// Nodes and elements have their numbers in the file, in whatever words, of every method.
+static void test_numbers_of_the_file(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *change, *node, *element;
+  } all[] = {{"", " is node ", " element "},
+             {"--set 'pressures[0].peak=1 MPa' --set solve=equilibrium", " is node ", "; it is of element "},
+             {"--set 'pressures[0].peak=1e9 kPa' --set solve=explicit", " the position of node ", "; it is of element "},
+             {"--set 'pressures[0].peak=1e20 kPa' --set solve=explicit", " pulls at node ", "; it is of element "}};
+  save_text("bar.yaml", "mesh: {file: bar.vtk, unit: mm}\n"
+                        "surfaces: [{name: all, boundary: true}]\n"
+                        "node_sets: [{name: end, box: {low: [0 mm, 0 mm, 0 mm], high: [0 mm, 1 mm, 1 mm]}}]\n"
+                        "materials: [{name: a, axial: {f: 10 kPa, s: 10 kPa, n: 10 kPa}, volume_modulus: 100 kPa,\n"
+                        "  angular: {fs: 5 kPa, sn: 5 kPa, nf: 5 kPa}}]\n"
+                        "supports: [{set: end, held: [x, y, z]}]\n"
+                        "pressures: [{surface: all, peak: 1 MPa, curve: {kind: constant}}]\n"
+                        "solve: equilibrium\n"
+                        "time: {end: 10 ms}\n");
+  for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
+    long told[2][2];
+    for (int more = 0; more < 2; more++) {
+      char command[256];
+      write_bar("bar.vtk", 5 * more);
+      snprintf(command, sizeof command, "$V run bar.yaml -q -o bar %s", all[k].change);
+      assert_int_equal(shell(command), 3);
+      told[more][0] = number_behind(all[k].node);
+      told[more][1] = number_behind(all[k].element);
+    }
+    for (int i = 0; i < 2; i++) assert_int_equal(told[1][i], told[0][i] + 5);
+  }
+}
+
 // What went well in the end leaves no message.
 static void test_repeated_without_a_message(void **state)
 {
@@ -308,6 +372,7 @@ int main(void)
       cmocka_unit_test(test_repeated_with_shorter_steps),
       cmocka_unit_test(test_lost_numbers),
       cmocka_unit_test(test_loads_beyond_any_step),
+      cmocka_unit_test(test_numbers_of_the_file),
       cmocka_unit_test(test_repeated_without_a_message),
       cmocka_unit_test(test_steps_grow_again),
       cmocka_unit_test(test_steps_that_rows_cut),

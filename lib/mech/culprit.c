@@ -238,7 +238,8 @@ vsc_culprit vsc_find_culprit(const vsc_model *model, const double *x, const doub
                              size_t node)
 {
   const vsc_material *material;
-  vsc_culprit culprit = {.element = worst_element(model, x, w, node, &material)};
+  const uint32_t worst = worst_element(model, x, w, node, &material);
+  vsc_culprit culprit = {.element = worst != VSC_NO_ELEMENT ? vsc_source_number(model->element_source, worst) : worst};
   double *const multipliers[2] = {scratch->node_multiplier, scratch->pack_multiplier}, *force;
   remains r;
   if (!remains_open(model, w, scratch, &r)) return culprit;

@@ -8,7 +8,7 @@
 typedef struct vsc_culprit {
   const char *term;  // the one whose force on the node is largest, "volume", "active tension" ...; NULL: not known
   double force;      // of it, mN; infinite where that is not a finite number
-  uint32_t element;  // the mesh's: of those round the node the one with the largest energy; VSC_NO_ELEMENT: there is none
+  uint32_t element;  // of those round the node the one with the largest energy, its number in the file; VSC_NO_ELEMENT: none
 } vsc_culprit;
 
 // The culprit at `node` of the body at positions x and velocities w (node_count x 4; w may be NULL: nothing is damped)

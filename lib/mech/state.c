@@ -167,7 +167,8 @@ size_t vsc_state_find_bad(const vsc_model *model, const vsc_state *state)
 const char *vsc_name_node(const vsc_model *model, size_t node, char *text, size_t size)
 {
   const double *rest = model->rest + 4 * node;
-  snprintf(text, size, "node %u, at rest at (%.4g, %.4g, %.4g) mm", model->mesh_node[node], rest[0], rest[1], rest[2]);
+  snprintf(text, size, "node %u, at rest at (%.4g, %.4g, %.4g) mm", vsc_source_number(model->node_source, model->mesh_node[node]),
+           rest[0], rest[1], rest[2]);
   return text;
 }
 

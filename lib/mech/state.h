@@ -149,7 +149,7 @@ size_t vsc_state_find_bad(const vsc_model *model, const vsc_state *state);
 
 enum { VSC_NODE_TEXT = 96 };  // room for a node's name and place
 
-// "node 12, at rest at (1, 0.5, 2) mm", the node in the mesh's number: for messages. Writes at most `size` bytes
+// "node 12, at rest at (1, 0.5, 2) mm", the node's number in the file: for messages. Writes at most `size` bytes
 // with the terminating zero and returns `text`.
 const char *vsc_name_node(const vsc_model *model, size_t node, char *text, size_t size);
 

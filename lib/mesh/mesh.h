@@ -69,6 +69,13 @@ vsc_mesh *vsc_mesh_create(size_t nodes, size_t tets, size_t triangles);
 vsc_mesh *vsc_mesh_create_cells(size_t nodes, size_t elements, const uint8_t *kinds,
                                 size_t triangles);
 
+// What a node or an element is called in messages: its number in the file. `source`: of all of them, or NULL, where they
+// have that number themselves.
+static inline uint32_t vsc_source_number(const uint32_t *source, uint32_t number)
+{
+  return source != NULL ? source[number] : number;
+}
+
 // The corners of element `element`, as many as its kind has.
 static inline const uint32_t *vsc_mesh_corners(const vsc_mesh *mesh, size_t element)
 {

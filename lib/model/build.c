@@ -398,6 +398,17 @@ static vsc_solve_def complete_solve(const vsc_definition *definition)
   return solve;
 }
 
+// A copy of a mesh's source numbers, where they are not the numbers of the mesh itself.
+static bool keep_source(const uint32_t *source, size_t count, uint32_t **kept)
+{
+  size_t same = 0;
+  while (same < count && source[same] == same) same++;
+  if (same == count) return true;
+  if (!VSC_NEW(*kept, count)) return false;
+  memcpy(*kept, source, count * sizeof *source);
+  return true;
+}
+
 static vsc_status build(const vsc_mesh *mesh, const vsc_mesh *shown, const vsc_axes *axes,
                         const vsc_definition *definition, uint32_t *material_of, uint8_t *mixed,
                         vsc_model *model, vsc_error *error)
@@ -411,6 +422,9 @@ static vsc_status build(const vsc_mesh *mesh, const vsc_mesh *shown, const vsc_a
   model->solve = complete_solve(definition);
   // nothing but weight hangs on the masses of equilibria
   model->masses = definition->solve.kind == VSC_SOLVE_EQUILIBRIUM ? VSC_MASS_LUMPED : definition->masses;
+  if (!keep_source(mesh->node_source, mesh->node_count, &model->node_source) ||
+      !keep_source(mesh->element_source, mesh->element_count, &model->element_source))
+    return vsc_fail_memory(error, "the numbers of the mesh's nodes and elements");
   vsc_status status = check_order(mesh, definition, error);
   if (status == VSC_OK) status = vsc_terms_materials(mesh, definition, material_of, error);
   if (status == VSC_OK) status = build_materials(mesh, definition, model, error);

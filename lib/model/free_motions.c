@@ -198,7 +198,7 @@ static void say_part(const body *body, const part *own, char *text, size_t size)
   const double *place = body->model->rest + 4 * (size_t)own->first;
   const size_t count = own->elements > 0 ? own->elements : own->nodes;
   snprintf(text, size, "%zu %s with node %u at (%.4g, %.4g, %.4g) mm", count, own->elements > 0 ? "elements" : "nodes",
-           body->model->mesh_node[own->first], place[0], place[1], place[2]);
+           vsc_source_number(body->model->node_source, body->model->mesh_node[own->first]), place[0], place[1], place[2]);
 }
 
 static void say_where(const body *body, const part *own, char *text, size_t size)

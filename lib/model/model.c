@@ -10,6 +10,8 @@ static void free_order_and_elements(vsc_model *model)
 {
   vsc_free(model->mesh_node);
   vsc_free(model->mesh_element);
+  vsc_free(model->node_source);
+  vsc_free(model->element_source);
   vsc_free(model->store);
   vsc_free(model->patches);
   vsc_free(model->shared);

@@ -248,6 +248,7 @@ typedef struct vsc_model {
   uint32_t *mesh_node;  // node_count: the mesh's node of each node
   uint32_t *mesh_element;  // pack_count x 4: the mesh's element of each slot, or VSC_NO_ELEMENT (also
                            // for springs, triangles and bends)
+  uint32_t *node_source, *element_source;  // the mesh's, where they differ from its own numbers; else NULL
 
   // elements
   unsigned char *store;   // store_size bytes: packs and law data of all patches

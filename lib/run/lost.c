@@ -21,8 +21,6 @@ vsc_status vsc_job_find_lost(vsc_job *job, vsc_error *error)
   // steps that end elsewhere may lose it a little later
   const double until = seen + (seen - job->state->time);
   if (!vsc_find_lost(model, job->state, until, &lost)) return VSC_NUMERICAL;
-  if (lost.culprit.element != VSC_NO_ELEMENT)
-    lost.culprit.element = job->problem->mesh->element_source[lost.culprit.element];
   char node[VSC_NODE_TEXT], culprit[VSC_CULPRIT_TEXT];
   return vsc_fail(error, VSC_NUMERICAL,
                   "at %.6g ms (step %.0f) the position of %s, is no longer a finite number%s: the simulation has "

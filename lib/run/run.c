@@ -295,8 +295,8 @@ static void judge_inverted(vsc_job *job, double vain, bool only)
 // To the next look. When energy does not balance there, because loads or vibrations have changed much
 // since the last look, the same way is gone again with closer looks, then with steps of a half, a quarter,
 // an eighth of their length and looks closer still, and so it is when numbers are no longer finite; what
-// fails then is coming apart (or loses a number, of which it is told where that begins), but for what supports do that start or stop at once. Where elements turn inside out it
-// is gone again once, in steps of half their length.
+// fails then is coming apart (or loses a number, of which it is told where that begins), but for what supports do that
+// start or stop at once. Where elements turn inside out it is gone again once, in steps of half their length.
 static vsc_status go_to_look(vsc_job *job, double time, vsc_error *error)
 {
   const vsc_model *model = job->problem->model;

@@ -127,7 +127,8 @@ static vsc_status fail_motion(const vsc_model *model, double time, const double 
   return vsc_fail(error, VSC_NUMERICAL,
                   "at %.6g ms no equilibrium was found: supports move so far that elements turn inside out, element %u most, "
                   "beside %s; take a smaller motion",
-                  time, element, vsc_name_node(model, node_of(model, element), node, sizeof node));
+                  time, vsc_source_number(model->element_source, element),
+                  vsc_name_node(model, node_of(model, element), node, sizeof node));
 }
 
 // Takes x, in balance at `time` after an increment of `step`, into the state.

@@ -255,8 +255,9 @@ static const char *name_worst(const vsc_model *model, const keeper *k, char text
   if (kept->kind != VSC_KEEP_NODE && kept->kind != VSC_KEEP_ELEMENT) return text;
   char place[VSC_NODE_TEXT];
   vsc_name_node(model, kept->triangles[3 * kept->start[worst]], place, sizeof place);
-  snprintf(text, VSC_NODE_TEXT, ", that of %s %u near %s", kept->kind == VSC_KEEP_NODE ? "node" : "element",
-           kept->source[worst], strchr(place, '('));
+  const bool node = kept->kind == VSC_KEEP_NODE;
+  snprintf(text, VSC_NODE_TEXT, ", that of %s %u near %s", node ? "node" : "element",
+           vsc_source_number(node ? model->node_source : model->element_source, kept->source[worst]), strchr(place, '('));
   return text;
 }
 

@@ -175,7 +175,8 @@ static bool step(vsc_newton *newton, double *x, char why[WHY])
   for (int k = 0; k <= MOST_HALVINGS; k++, part /= 2) {
     for (size_t i = 0; i < count; i++) newton->trial[i] = x[i] + part * newton->d[i];
     if (vsc_smallest_ratio(newton->model, newton->trial, &element) <= 0) {
-      snprintf(why, WHY, "element %u would turn inside out", element);
+      snprintf(why, WHY, "element %u would turn inside out",
+               vsc_source_number(newton->model->element_source, element));
       continue;
     }
     if (vsc_touch_goes_through(newton->touch, x, newton->trial, why, WHY)) continue;
