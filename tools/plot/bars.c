@@ -65,15 +65,11 @@ static void draw_bar(cairo_t *cairo, const vsc_bar *bar, double y, double scale)
   vsc_write_text(cairo, LEFT + scale * (isfinite(end) ? end : 0) + 10, y + 13, 13, VSC_FAINT, 0, bar->text);
 }
 
-static void draw_page(cairo_t *cairo, const vsc_bars *bars)
+static void draw_page(cairo_t *cairo, const void *what)
 {
+  const vsc_bars *bars = what;
   const double scale = LENGTH / largest(bars);
   double y = TOP;
-  cairo_set_source_rgb(cairo, 1, 1, 1);
-  cairo_paint(cairo);
-  vsc_use_font(cairo, CAIRO_FONT_WEIGHT_BOLD);
-  vsc_write_text(cairo, 36, 38, 22, VSC_INK, 0, bars->title);
-  vsc_use_font(cairo, CAIRO_FONT_WEIGHT_NORMAL);
   draw_legend(cairo, bars);
   if (isfinite(bars->line)) fill(cairo, VSC_FAINT, LEFT + scale * bars->line, TOP, 1, height_of(bars) - TOP - BOTTOM);
   for (size_t k = 0; k < bars->count; k++) {
@@ -90,16 +86,5 @@ static void draw_page(cairo_t *cairo, const vsc_bars *bars)
 
 vsc_status vsc_bars_draw(const vsc_bars *bars, const char *file, vsc_error *error)
 {
-  cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, LEFT + LENGTH + RIGHT, height_of(bars));
-  cairo_t *cairo = cairo_create(surface);
-  vsc_status status = VSC_OK;
-  if (cairo_status(cairo) == CAIRO_STATUS_SUCCESS) {
-    draw_page(cairo, bars);
-    status = vsc_write_png(surface, file, error);
-  } else {
-    status = vsc_fail_memory(error, "the picture");
-  }
-  cairo_destroy(cairo);
-  cairo_surface_destroy(surface);
-  return status;
+  return vsc_write_page(LEFT + LENGTH + RIGHT, height_of(bars), bars->title, draw_page, bars, file, error);
 }

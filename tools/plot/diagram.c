@@ -122,12 +122,9 @@ static int height_of(const vsc_diagrams *all)
   return TOP + SIDE + 80 + LINE * (int)most;
 }
 
-static void draw_all(cairo_t *cairo, const vsc_diagrams *all)
+static void draw_all(cairo_t *cairo, const void *what)
 {
-  cairo_set_source_rgb(cairo, 1, 1, 1);
-  cairo_paint(cairo);
-  vsc_use_font(cairo, CAIRO_FONT_WEIGHT_BOLD);
-  vsc_write_text(cairo, 36, 38, 22, VSC_INK, 0, all->title);
+  const vsc_diagrams *all = what;
   for (size_t t = 0; t < all->count; t++) {
     cairo_save(cairo);
     cairo_translate(cairo, LEFT + (double)t * PANEL, TOP);
@@ -139,16 +136,5 @@ static void draw_all(cairo_t *cairo, const vsc_diagrams *all)
 vsc_status vsc_diagrams_draw(const vsc_diagrams *all, const char *file, vsc_error *error)
 {
   const int width = PANEL * ((int)all->count - 1) + LEFT + SIDE + 60;
-  cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height_of(all));
-  cairo_t *cairo = cairo_create(surface);
-  vsc_status status = VSC_OK;
-  if (cairo_status(cairo) == CAIRO_STATUS_SUCCESS) {
-    draw_all(cairo, all);
-    status = vsc_write_png(surface, file, error);
-  } else {
-    status = vsc_fail_memory(error, "the picture");
-  }
-  cairo_destroy(cairo);
-  cairo_surface_destroy(surface);
-  return status;
+  return vsc_write_page(width, height_of(all), all->title, draw_all, all, file, error);
 }

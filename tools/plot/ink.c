@@ -97,3 +97,25 @@ vsc_status vsc_write_png(cairo_surface_t *surface, const char *file, vsc_error *
   vsc_replace_cancel(&picture);
   return vsc_fail(error, VSC_SYSTEM, "%s: %s", file, cairo_status_to_string(status));
 }
+
+vsc_status vsc_write_page(int width, int height, const char *title, vsc_page_part *draw, const void *what,
+                          const char *file, vsc_error *error)
+{
+  cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
+  cairo_t *cairo = cairo_create(surface);
+  vsc_status status = VSC_OK;
+  if (cairo_status(cairo) == CAIRO_STATUS_SUCCESS) {
+    cairo_set_source_rgb(cairo, 1, 1, 1);
+    cairo_paint(cairo);
+    vsc_use_font(cairo, CAIRO_FONT_WEIGHT_BOLD);
+    vsc_write_text(cairo, 36, 38, 22, VSC_INK, 0, title);
+    vsc_use_font(cairo, CAIRO_FONT_WEIGHT_NORMAL);
+    draw(cairo, what);
+    status = vsc_write_png(surface, file, error);
+  } else {
+    status = vsc_fail_memory(error, "the picture");
+  }
+  cairo_destroy(cairo);
+  cairo_surface_destroy(surface);
+  return status;
+}

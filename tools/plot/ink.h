@@ -31,4 +31,11 @@ vsc_status vsc_check_png(const char *file, vsc_error *error);
 // Writes a PNG by way of a temporary name, of which nothing is left when it cannot: VSC_SYSTEM.
 vsc_status vsc_write_png(cairo_surface_t *surface, const char *file, vsc_error *error);
 
+// Draws what belongs to a page.
+typedef void vsc_page_part(cairo_t *cairo, const void *what);
+
+// A white page of that many pixels with a title and what `draw` draws of `what`, as a PNG; errors as above.
+vsc_status vsc_write_page(int width, int height, const char *title, vsc_page_part *draw, const void *what,
+                          const char *file, vsc_error *error);
+
 #endif

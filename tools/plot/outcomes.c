@@ -114,13 +114,9 @@ static void draw_column(cairo_t *cairo, const outcomes *table, size_t method, si
     draw_field(cairo, x, TOP + (double)s * ROW, table->of[s][method][kind]);
 }
 
-static void draw_page(cairo_t *cairo, const outcomes *table)
+static void draw_page(cairo_t *cairo, const void *what)
 {
-  cairo_set_source_rgb(cairo, 1, 1, 1);
-  cairo_paint(cairo);
-  vsc_use_font(cairo, CAIRO_FONT_WEIGHT_BOLD);
-  vsc_write_text(cairo, 36, 38, 22, VSC_INK, 0, "What tissue survives: cases by stress, method and kind of element");
-  vsc_use_font(cairo, CAIRO_FONT_WEIGHT_NORMAL);
+  const outcomes *table = what;
   draw_legend(cairo, table);
   for (size_t s = 0; s < table->stresses.count; s++)
     vsc_write_text(cairo, LEFT - 12, TOP + (double)s * ROW + 19, 14, VSC_INK, 1, table->stresses.text[s]);
@@ -139,16 +135,8 @@ vsc_status vsc_outcomes_draw(const char *csv, const char *file, vsc_error *error
   if (status == VSC_OK) {
     const int width = LEFT + (int)table->methods.count * ((int)table->kinds.count * CELL + GAP) + 20;
     const int height = TOP + (int)table->stresses.count * ROW + BOTTOM;
-    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
-    cairo_t *cairo = cairo_create(surface);
-    if (cairo_status(cairo) != CAIRO_STATUS_SUCCESS) {
-      status = vsc_fail_memory(error, "the picture");
-    } else {
-      draw_page(cairo, table);
-      status = vsc_write_png(surface, file, error);
-    }
-    cairo_destroy(cairo);
-    cairo_surface_destroy(surface);
+    status = vsc_write_page(width, height, "What tissue survives: cases by stress, method and kind of element",
+                            draw_page, table, file, error);
   }
   free(table);
   return status;
