@@ -10,6 +10,8 @@
 #include "mech/force.h"
 #include "mech/prony.h"
 #include "mech/step_limit.h"
+#include "model/law_constants.h"
+#include "model/small_strain.h"
 #include "solve/contact.h"
 #include "solve/keep_volume.h"
 #include "solve/moving.h"
@@ -19,10 +21,9 @@
 #define SHORTEST_TRUST 0.25
 #define LONGEST_TRUST 4.0
 enum { TRUSTED_STEPS = 128 };  // or as long as these take: an estimate costs as much as five
-// An estimate is not trusted for longer than the activity of a material changes by less than this part of what it is and a
-// sixteenth of its range, found among so many equal parts of the interval.
-#define TRUSTED_CHANGE 0.125
-#define BESIDE 0.0625
+// An estimate is not trusted for longer than a material's stiffness changes by less than this part with its activity, found
+// among so many equal parts of the interval.
+#define TRUSTED_CHANGE 0.04
 enum { LOOKS_AHEAD = 16 };
 // A stable step below this part of the first one, or of that at rest, belongs to a body that is torn or crushed.
 #define COLLAPSE 1e-3
@@ -227,18 +228,24 @@ static double longest_trust(const vsc_limit *limit)
   return fmax(LONGEST_TRUST, TRUSTED_STEPS * limit->step);
 }
 
-// For how long the estimate is trusted, ms. Where each element has a delay of its own some are always about to change:
-// what is stiffest hardly does.
+// For how long the estimate is trusted, ms. Of a law of strain the stiffness is that at rest, volume and all, and what
+// activity adds to it. Where each element has a delay of its own some are always about to change: what is stiffest hardly
+// does.
 static double trusted_span(const vsc_model *model, const vsc_limit *limit)
 {
   int looks = LOOKS_AHEAD;
   for (size_t m = 0; m < model->material_count && model->delay == NULL; m++) {
-    const vsc_curve *curve = &model->materials[m].curve;
-    if (curve->values == NULL) continue;
-    const double since = limit->time - model->materials[m].delay, then = vsc_curve_value(curve, since);
-    const double most = TRUSTED_CHANGE * (fabs(then) + BESIDE * curve->range);
-    for (int k = 1; k < looks; k++)
-      if (fabs(vsc_curve_value(curve, since + limit->interval * k / LOOKS_AHEAD) - then) > most) looks = k > 1 ? k - 1 : 1;
+    const vsc_material *material = &model->materials[m];
+    const vsc_curve *curve = &material->curve;
+    if (curve->values == NULL || !vsc_law_is_of_strain(material->law)) continue;
+    const double adds = material->active == VSC_ACTIVE_TENSION ? material->tension : material->active_stiffness;
+    const double since = limit->time - material->delay, then = vsc_curve_value(curve, since);
+    const double passive = vsc_material_stiffest(model, material) + material->volume_modulus + material->stabilization;
+    const double most = TRUSTED_CHANGE * (passive + adds * fabs(then));
+    for (int k = 1; k < looks; k++) {
+      const double change = vsc_curve_value(curve, since + limit->interval * k / LOOKS_AHEAD) - then;
+      if (adds * fabs(change) > most) looks = k > 1 ? k - 1 : 1;
+    }
   }
   return limit->interval * looks / LOOKS_AHEAD;
 }
@@ -407,11 +414,13 @@ static vsc_status fixed_steps_to(const vsc_model *model, vsc_state *state, doubl
 vsc_status vsc_advance(const vsc_model *model, vsc_state *state, double until, vsc_error *error)
 {
   while (state->time < until * (1 - 1e-12)) {
-    if (state->time - state->limit.time >= trusted_span(model, &state->limit) * (1 - 1e-9)) {
+    double span = trusted_span(model, &state->limit);
+    if (state->time - state->limit.time >= span * (1 - 1e-9)) {
       const vsc_status status = refresh_limit(model, state, error);
       if (status != VSC_OK) return status;
+      span = trusted_span(model, &state->limit);
     }
-    const double stop = fmin(until, state->limit.time + trusted_span(model, &state->limit));
+    const double stop = fmin(until, state->limit.time + span);
     vsc_status status = model->step > 0 ? fixed_steps_to(model, state, stop, error)
                                         : step_to(model, state, stop, until, error);
     if (status == VSC_OK) status = check_finite(model, state, error);

@@ -27,8 +27,8 @@ vsc_status vsc_steps(const vsc_model *model, vsc_state *state, double dt, double
                      vsc_error *error);
 
 // Steps from state->time to `until` (ms) in equal steps not longer than the stable one, which is
-// re-estimated at least every 4 ms or 128 steps, and where the activity of a material has changed by an eighth of what
-// it was and a sixteenth of its range; with a step given by the user, in steps of just that length to
+// re-estimated at least every 4 ms or 128 steps, and where activity has changed a material's stiffness by 4 %;
+// with a step given by the user, in steps of just that length to
 // the first of its multiples that is not before `until`. VSC_NUMERICAL when a position or velocity is no longer
 // finite, the stable step has fallen below a thousandth of that at the start or at rest, or a user's step has become
 // unstable: the message names node, place and time.
