@@ -62,7 +62,7 @@ static void stress_of(const law *l, const double G[9], double P[9])
   const vsc_springs springs = springs_of(l);
   const vsc_frame_axes frame = frame_in_lane(G, 1, g);
   const vsc_wide nothing[3] = {vsc_splat(0), vsc_splat(0), vsc_splat(0)};
-  vsc_springs_stress(&springs, &frame, nothing, stress);
+  vsc_springs_stress(&springs, &frame, nothing, true, stress);
   const double pressure = vsc_volume_stress(vsc_splat(l->K), vsc_splat(determinant(G)))[0];
   for (int a = 0; a < 3; a++) {
     const double *b = G + 3 * ((a + 1) % 3), *c = G + 3 * ((a + 2) % 3);
@@ -310,8 +310,8 @@ static void along_pulls_along_the_axis(void **state)
   const vsc_wide pull[3] = {vsc_splat(2), vsc_splat(-3), vsc_splat(5)};
   vsc_wide3 g[3], without[3], with[3];
   const vsc_frame_axes frame = frame_in_lane(states[4], 3, g);
-  vsc_springs_stress(&springs, &frame, nothing, without);
-  vsc_springs_stress(&springs, &frame, pull, with);
+  vsc_springs_stress(&springs, &frame, nothing, true, without);
+  vsc_springs_stress(&springs, &frame, pull, true, with);
   for (int a = 0; a < 3; a++) {
     const double *G = states[4] + 3 * a;
     const double length = sqrt(G[0] * G[0] + G[1] * G[1] + G[2] * G[2]);

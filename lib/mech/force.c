@@ -116,6 +116,12 @@ static vsc_patch_work prepare_surface(const evaluation *e, const vsc_patch *patc
                           .f = local->f};
 }
 
+static vsc_frame_springs springs_of(const vsc_patch *patch, const vsc_material *material)
+{
+  if (patch->mixed || material->axis_count + material->pair_count > 0) return VSC_COMPOSED;
+  return material->angular[0] + material->angular[1] + material->angular[2] > 0 ? VSC_ANGULAR : VSC_AXIAL;
+}
+
 // The patch's work, with only what its kernel reads gathered.
 static vsc_patch_work prepare(const evaluation *e, const vsc_patch *patch, const local_arrays *local,
                               vsc_kernel_choice *choice)
@@ -131,7 +137,7 @@ static vsc_patch_work prepare(const evaluation *e, const vsc_patch *patch, const
       .active = passive ? VSC_ACTIVE_NONE : material->active,
       .nodal_volume = vsc_patch_shares_volume(model, patch),
       .smoothed = patch->smoothed != 0,
-      .composed = patch->mixed || material->axis_count + material->pair_count > 0,
+      .springs = springs_of(patch, material),
       .general = material->general || (patch->mixed && model->terms.general)};
   vsc_gather_nodes(model, patch, e->x, local->x);
   if (choice->damping) vsc_gather_nodes(model, patch, e->w, local->w);
@@ -156,7 +162,8 @@ static vsc_patch_work prepare(const evaluation *e, const vsc_patch *patch, const
       .multipliers = e->scratch->pack_multiplier != NULL
                          ? (const vsc_wide *)e->scratch->pack_multiplier + patch->first_pack
                          : NULL,
-      .shares_volume = choice->nodal_volume};
+      .shares_volume = choice->nodal_volume,
+      .angular = choice->springs != VSC_AXIAL};
 }
 
 static void patch_force(void *context, size_t p, int thread)

@@ -34,7 +34,7 @@ static vsc_patch_kernel *cell_kernel(const vsc_kernels *set, const vsc_kernel_ch
     return c->family == VSC_TETS ? set->paper_tets[c->damping] : set->paper_hexes[c->damping];
   if (c->smoothed) return set->smoothed[c->nodal_volume];
   if (c->general) return cells()->laws[c->damping][c->family];
-  if (c->family == VSC_TETS) return cells()->tets[c->composed][c->damping][c->active][c->nodal_volume];
+  if (c->family == VSC_TETS) return cells()->tets[c->springs][c->damping][c->active][c->nodal_volume];
   return cells()->solids[c->damping][c->family - VSC_HEXES];
 }
 

@@ -27,6 +27,7 @@ typedef struct vsc_patch_work {
   size_t activation_stride;
   const vsc_four *multipliers;  // of each pack: added to what its frames share, kPa; or NULL
   bool shares_volume;  // whether the pressures of nodes count
+  bool angular;        // law SPRINGS: whether any angular spring may have a modulus
   double stiffness_factor, damping_factor;  // of -df/dx and of -df/dw, what goes into tangents
   const double *before;  // positions of the iterate before, which foretells stresses; or NULL
   const vsc_four (*past)[6];  // tangents of materials with a Prony series: H of each frame of the pack, kPa
@@ -66,6 +67,13 @@ typedef void vsc_edge_kernel(const vsc_edge_work *work);
 // K + 9 (i (i + 1)/2 + j); mN/mm. `work->w` is NULL where nothing is damped.
 typedef void vsc_tangent_kernel(const vsc_patch_work *work, size_t k, vsc_four *K);
 
+// The springs of frames under law SPRINGS.
+typedef enum vsc_frame_springs {
+  VSC_AXIAL,     // along the axes alone
+  VSC_ANGULAR,   // between them too
+  VSC_COMPOSED,  // further axes or pairs, or inclusions
+} vsc_frame_springs;
+
 // Which kernel a patch needs.
 typedef struct vsc_kernel_choice {
   uint32_t family;  // a vsc_family
@@ -74,7 +82,7 @@ typedef struct vsc_kernel_choice {
   vsc_active_kind active;
   bool nodal_volume;
   bool smoothed;  // tets whose law is evaluated on edges
-  bool composed;  // further axes or pairs, or inclusions
+  vsc_frame_springs springs;
   bool general;   // the kernel of any law of strain
 } vsc_kernel_choice;
 

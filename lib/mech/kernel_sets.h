@@ -7,7 +7,7 @@
 
 // Of cells under laws of strain.
 typedef struct vsc_cell_kernels {
-  vsc_patch_kernel *tets[2][2][3][2];    // law SPRINGS: [composed][damping][active kind][nodal volume]
+  vsc_patch_kernel *tets[3][2][3][2];    // law SPRINGS: [springs][damping][active kind][nodal volume]
   vsc_patch_kernel *solids[2][4];        // likewise: [damping][hexes, wedges, pyramids, quadratic tets]
   vsc_patch_kernel *laws[2][VSC_CELLS];  // any law of strain: [damping][family]
   vsc_patch_kernel *volume;

@@ -218,7 +218,7 @@ VSC_INLINE void solid_stress(const vsc_patch_work *work, size_t k, const vsc_mix
   const vsc_springs law = springs_of(material, moduli, true, material->active, activation);
   if (material->active == VSC_ACTIVE_TENSION)
     along[0] += moduli->share * activation * material->tension * axes.length[0];
-  vsc_springs_stress(&law, &axes, along, P);
+  vsc_springs_stress(&law, &axes, along, work->angular, P);
   add_more_axes(work, moduli->share, g, rate, damping, P);
 }
 

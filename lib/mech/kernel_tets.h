@@ -97,9 +97,10 @@ VSC_INLINE void add_volume(const vsc_patch_work *work, size_t k, bool nodal, con
 
 // P_a of pack k (and the one behind it) from its shape and the rates of its axes.
 VSC_INLINE void pack_stress(const vsc_patch_work *work, size_t k, const pack_shape *shape,
-                            const vsc_wide3 rate[3], bool composed, bool damping,
+                            const vsc_wide3 rate[3], vsc_frame_springs springs, bool damping,
                             vsc_active_kind active, bool nodal, vsc_wide3 P[3])
 {
+  const bool composed = springs == VSC_COMPOSED;
   const vsc_mixture moduli = moduli_of(work, k, composed);
   const vsc_frame_axes frame = vsc_frame_of_lengths(shape->g, &shape->lengths);
   vsc_wide along[3] = {vsc_splat(0), vsc_splat(0), vsc_splat(0)};
@@ -112,7 +113,7 @@ VSC_INLINE void pack_stress(const vsc_patch_work *work, size_t k, const pack_sha
   // S += T f0 f0: P_f += T g_f
   if (active == VSC_ACTIVE_TENSION)
     along[0] += moduli.share * activation * work->material->tension * frame.length[0];
-  vsc_springs_stress(&law, &frame, along, P);
+  vsc_springs_stress(&law, &frame, along, springs != VSC_AXIAL, P);
   if (composed) add_more_axes(work, moduli.share, shape->g, rate, damping, P);
   add_volume(work, k, nodal, shape, P);
 }
@@ -135,7 +136,7 @@ VSC_INLINE void pack_law_stress(const vsc_patch_work *work, size_t k, const pack
 }
 
 // `general`: any law of strain; else law SPRINGS with what follows.
-VSC_INLINE void force_kernel(const vsc_patch_work *work, bool general, bool composed, bool damping,
+VSC_INLINE void force_kernel(const vsc_patch_work *work, bool general, vsc_frame_springs springs, bool damping,
                              vsc_active_kind active, bool nodal)
 {
   pack_shape shape[TOGETHER];
@@ -148,7 +149,7 @@ VSC_INLINE void force_kernel(const vsc_patch_work *work, bool general, bool comp
     const size_t count = left < TOGETHER ? left : TOGETHER;
     for (size_t t = 0; t < count; t++) {
       gather_axes(work, first + PACKS * t, work->x, shape[t].g);
-      measure_shape(work, first + PACKS * t, general, composed, &shape[t]);
+      measure_shape(work, first + PACKS * t, general, springs == VSC_COMPOSED, &shape[t]);
     }
     for (size_t t = 0; damping && t < count; t++) gather_axes(work, first + PACKS * t, work->w, rate[t]);
     for (size_t t = 0; t < count; t++) {
@@ -156,7 +157,7 @@ VSC_INLINE void force_kernel(const vsc_patch_work *work, bool general, bool comp
       if (general)
         pack_law_stress(work, first + PACKS * t, &shape[t], rate[t], damping, &in, P[t]);
       else
-        pack_stress(work, first + PACKS * t, &shape[t], rate[t], composed, damping, active, nodal, P[t]);
+        pack_stress(work, first + PACKS * t, &shape[t], rate[t], springs, damping, active, nodal, P[t]);
     }
     for (size_t t = 0; t < count; t++)
       scatter_forces(&packs[first + PACKS * t], other_pack(work, first + PACKS * t), P[t], work->f);
@@ -165,12 +166,12 @@ VSC_INLINE void force_kernel(const vsc_patch_work *work, bool general, bool comp
 
 static void law_tets(const vsc_patch_work *work)
 {
-  force_kernel(work, true, true, false, VSC_ACTIVE_NONE, false);
+  force_kernel(work, true, VSC_COMPOSED, false, VSC_ACTIVE_NONE, false);
 }
 
 static void damped_law_tets(const vsc_patch_work *work)
 {
-  force_kernel(work, true, true, true, VSC_ACTIVE_NONE, false);
+  force_kernel(work, true, VSC_COMPOSED, true, VSC_ACTIVE_NONE, false);
 }
 
 static void volume_kernel(const vsc_patch_work *work)

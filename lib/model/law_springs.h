@@ -14,6 +14,8 @@
 #ifndef VSC_MODEL_LAW_SPRINGS_H
 #define VSC_MODEL_LAW_SPRINGS_H
 
+#include <stdbool.h>
+
 #include "base/wide.h"
 
 // Of an axis with less than this of its length at rest, direction and 1/length are g and 1 over this: they stay
@@ -108,10 +110,17 @@ VSC_INLINE vsc_wide vsc_springs_angular_energy(const vsc_springs *law, const vsc
 }
 
 // P_a. `along[a]` is added to the axial force along u_a: damping, and whatever else pulls along an
-// axis.
+// axis. `angular`: whether any G is above 0.
 VSC_INLINE void vsc_springs_stress(const vsc_springs *law, const vsc_frame_axes *frame,
-                                   const vsc_wide along[3], vsc_wide3 P[3])
+                                   const vsc_wide along[3], bool angular, vsc_wide3 P[3])
 {
+  vsc_wide axial[3];
+  for (int a = 0; a < 3; a++)
+    axial[a] = law->axial[a] * (frame->length[a] - (a == 0 ? law->rest_stretch : vsc_splat(1))) + along[a];
+  if (!angular) {
+    for (int a = 0; a < 3; a++) P[a] = vsc_wide_scale(axial[a], frame->u[a]);
+    return;
+  }
   // pair a is (a, a+1): w = G c
   vsc_wide c[3], w[3];
   for (int a = 0; a < 3; a++) {
@@ -120,9 +129,7 @@ VSC_INLINE void vsc_springs_stress(const vsc_springs *law, const vsc_frame_axes 
   }
   for (int a = 0; a < 3; a++) {
     const int next = (a + 1) % 3, last = (a + 2) % 3;
-    const vsc_wide rest = a == 0 ? law->rest_stretch : vsc_splat(1);
-    const vsc_wide axial = law->axial[a] * (frame->length[a] - rest) + along[a];
-    const vsc_wide own = axial - (w[a] * c[a] + w[last] * c[last]) * frame->inverse[a];
+    const vsc_wide own = axial[a] - (w[a] * c[a] + w[last] * c[last]) * frame->inverse[a];
     P[a] = vsc_wide_combine(own, frame->u[a], w[a] * frame->inverse[a], frame->u[next],
                             w[last] * frame->inverse[a], frame->u[last]);
   }

@@ -2,11 +2,13 @@
 #include "solve/contact.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 
+#include "base/parallel.h"
 #include "base/vec3.h"
 
-enum { MOST_ROUNDS = 8 };
+enum { MOST_ROUNDS = 8, NODES_PER_PIECE = 512 };
 // Parts of an element's size: below this a depth is rounding; as near as that a node is to all obstacles that it touches.
 static const double ROUNDING = 1e-13, NEAR = 1e-3;
 // Part of the normal, in directions that are not held, below which a node is held against the obstacle.
@@ -147,7 +149,7 @@ static bool put_back(const vsc_model *model, vsc_state *state, uint32_t node, do
   double *x = state->x + 4 * (size_t)node, *v = state->v + 4 * (size_t)node;
   double normal[3], way[3], before[3], depth;
   const double gap = vsc_obstacle_gap(p->obstacle, p->point, x, normal);
-  if (gap >= -ROUNDING * (model->element_size + vsc_norm(x))) return false;
+  if (gap >= 0 || gap >= -ROUNDING * (model->element_size + vsc_norm(x))) return false;
   const double free = find_way(model, node, dt, p, x, v, gap, normal, way, &depth);
   if (free < LEAST_FREE) return false;  // held against the obstacle
   memcpy(before, v, sizeof before);
@@ -182,10 +184,47 @@ static pusher pusher_of(const vsc_model *model, vsc_state *state, size_t o, doub
   return p;
 }
 
+// Nodes of an obstacle, looked at in pieces.
+typedef struct outlook {
+  const vsc_obstacle *obstacle;
+  const double *x;
+  double point[3], reach;  // square of the radius, and what rounding may add to it
+  atomic_bool *near;
+} outlook;
+
+// Whether any node may be inside: without roots, for the many steps in which none is.
+static void look_out(void *context, size_t piece, int thread)
+{
+  (void)thread;
+  const outlook *o = context;
+  const size_t last = (piece + 1) * NODES_PER_PIECE, count = o->obstacle->node_count;
+  const double *normal = o->obstacle->normal;
+  bool near = false;
+  for (size_t k = piece * NODES_PER_PIECE; k < (last < count ? last : count); k++) {
+    double way[3];
+    vsc_subtract(o->x + 4 * (size_t)o->obstacle->nodes[k], o->point, way);
+    near |= o->obstacle->kind == VSC_OBSTACLE_PLANE ? !(vsc_dot(way, normal) >= 0) : !(vsc_dot(way, way) >= o->reach);
+  }
+  if (near) atomic_store_explicit(o->near, true, memory_order_relaxed);
+}
+
+static bool all_outside(const vsc_model *model, const vsc_state *state)
+{
+  atomic_bool near = false;
+  for (size_t k = 0; k < model->obstacle_count && !near; k++) {
+    const vsc_obstacle *obstacle = &model->obstacles[k];
+    outlook o = {.obstacle = obstacle, .x = state->x, .reach = (1 + 1e-12) * obstacle->radius * obstacle->radius, .near = &near};
+    vsc_obstacle_place(obstacle, state->time, o.point);
+    vsc_parallel_for((obstacle->node_count + NODES_PER_PIECE - 1) / NODES_PER_PIECE, look_out, &o);
+  }
+  return !near;
+}
+
 size_t vsc_contact_resolve(const vsc_model *model, vsc_state *state, double dt, bool fresh)
 {
   size_t all = 0;
   if (fresh) memset(state->contact_count, 0, model->node_count * sizeof *state->contact_count);
+  if (all_outside(model, state)) return 0;
   for (int round = 0; round < MOST_ROUNDS; round++) {
     size_t moved = 0;
     for (size_t o = 0; o < model->obstacle_count; o++) {
@@ -209,16 +248,14 @@ void vsc_contact_load(const vsc_model *model, vsc_state *state, uint32_t node,
 void vsc_contact_account(const vsc_model *model, vsc_state *state)
 {
   for (size_t n = 0; n < model->node_count; n++) {
-    double *impulse = state->pending + 4 * n, *former = state->former + 4 * n;
-    const double *v = state->v + 4 * n;
-    if (impulse[0] != 0 || impulse[1] != 0 || impulse[2] != 0) {
-      // what obstacles have worked less what the node has got of it
-      vsc_contact_sums *sums = &state->contact[(size_t)state->contact_normal[4 * n + 3]];
-      sums->lost += impulse[3];
-      for (int i = 0; i < 3; i++) sums->lost -= 0.5 * impulse[i] * (former[i] + v[i]);
-      memset(impulse, 0, 4 * sizeof *impulse);
-    }
-    memcpy(former, v, 3 * sizeof *former);
+    double *impulse = state->pending + 4 * n;
+    const double *former = state->former + 4 * n, *v = state->v + 4 * n;
+    if (impulse[0] == 0 && impulse[1] == 0 && impulse[2] == 0) continue;
+    // what obstacles have worked less what the node has got of it
+    vsc_contact_sums *sums = &state->contact[(size_t)state->contact_normal[4 * n + 3]];
+    sums->lost += impulse[3];
+    for (int i = 0; i < 3; i++) sums->lost -= 0.5 * impulse[i] * (former[i] + v[i]);
+    memset(impulse, 0, 4 * sizeof *impulse);
   }
 }
 

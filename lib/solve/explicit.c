@@ -76,6 +76,7 @@ VSC_INLINE vsc_wide kick_node(const motion *m, size_t n)
 {
   // a <- f / m;  v <- v + dt/2 a
   const double *force = m->state->force;
+  if (m->model->obstacle_count > 0) ((vsc_wide *)m->state->former)[n] = ((const vsc_wide *)m->state->v)[n];
   const vsc_wide f = m->whole ? ((const vsc_wide *)force)[n] : vsc_node_force(m->model, &m->state->scratch, force, n);
   const vsc_wide a = m->a != NULL ? m->a[n] : ((const vsc_wide *)m->model->inverse_mass)[n] * f;
   ((vsc_wide *)m->state->v)[n] += 0.5 * m->dt * a;
@@ -139,16 +140,19 @@ static void accelerate(motion *m)
 
 // Puts nodes out of obstacles and volumes back to what they were, in turns, since each may disturb the
 // other. `first`: of a row of steps, in which a pressure has moved nodes by dt^2/2 of its acceleration, not dt^2.
-static vsc_status restrain(const vsc_model *model, vsc_state *state, double dt, bool first,
-                           vsc_error *error)
+static vsc_status restrain_all(const vsc_model *model, vsc_state *state, double dt, bool first, bool *touched,
+                               vsc_error *error)
 {
-  if (model->obstacle_count > 0) vsc_contact_resolve(model, state, dt, true);
+  if (model->obstacle_count > 0) *touched |= vsc_contact_resolve(model, state, dt, true) > 0;
   if (model->kept.count == 0) return VSC_OK;
   memset(state->kept_pressure, 0, model->kept.count * sizeof *state->kept_pressure);
   for (int turn = 0; turn < MOST_TURNS; turn++) {
     const vsc_status status = vsc_keep_volume(model, state, dt, first, error);
     if (status != VSC_OK) return status;
-    if (model->obstacle_count > 0 && vsc_contact_resolve(model, state, dt, false) > 0) continue;
+    if (model->obstacle_count > 0 && vsc_contact_resolve(model, state, dt, false) > 0) {
+      *touched = true;
+      continue;
+    }
     for (size_t k = 0; first && k < model->kept.count; k++) state->kept_pressure[k] *= 2;
     return VSC_OK;
   }
@@ -156,6 +160,15 @@ static vsc_status restrain(const vsc_model *model, vsc_state *state, double dt, 
                   "at %.6g ms contact and kept volumes do not agree after %d turns; use keep_volume: "
                   "region or total, or a smaller load",
                   state->time, MOST_TURNS);
+}
+
+// At the first step obstacles may have given impulses at the end of the row before.
+static vsc_status restrain(const vsc_model *model, vsc_state *state, double dt, bool first, vsc_error *error)
+{
+  bool touched = first;
+  const vsc_status status = restrain_all(model, state, dt, first, &touched, error);
+  if (status == VSC_OK && model->obstacle_count > 0 && touched) vsc_contact_account(model, state);
+  return status;
 }
 
 // The same of velocities at the end of a row of steps. What is left after all turns the next step takes up.
@@ -185,7 +198,6 @@ vsc_status vsc_steps(const vsc_model *model, vsc_state *state, double dt, double
     if (model->moved_count > 0) vsc_moving_place(model, state, dt);
     const vsc_status status = restrain(model, state, dt, k == 1, error);
     if (status != VSC_OK) return status;
-    if (model->obstacle_count > 0) vsc_contact_account(model, state);
     if (model->branch_count > 0) vsc_prony_step(model, state, dt);
     (m.whole ? vsc_force : vsc_force_parts)(model, state->x, velocity, state->time, &state->scratch, state->force);
     if (model->moved_count > 0) vsc_moving_account(model, state, dt, k == count);
