@@ -71,6 +71,23 @@ static void activation_arrays_may_be_absent(void **state)
     }
 }
 
+// Any of them, or all.
+static void angular_springs_may_be_absent(void **state)
+{
+  (void)state;
+  for (int absent = 0; absent < 8; absent++) {
+    random_body body;
+    vsc_mesh *mesh = random_block(3, 3);
+    body_define(&body, mesh, random_axes(mesh->element_count, 4), VSC_ACTIVE_NONE, VSC_VOLUME_NODAL);
+    for (size_t m = 0; m < body.definition.material_count; m++)
+      for (int a = 0; a < 3; a++)
+        if (absent & 1 << a) body.materials[m].angular[a] = 0;
+    body_build(&body);
+    compare_with_oracle(&body, 0.1, 9);
+    body_close(&body);
+  }
+}
+
 // What active tissue stores while its activation is frozen: springs E(a) (n - r(a))^2/2 in place of
 // the passive fibre spring, tension T a (n^2 - 1)/2. From the fields, in the mesh's order.
 static double active_energy(random_body *body, double time)
@@ -394,6 +411,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_force_is_the_plain_sum_over_tets),
       cmocka_unit_test(activation_arrays_may_be_absent),
+      cmocka_unit_test(angular_springs_may_be_absent),
       cmocka_unit_test(force_is_minus_the_gradient_of_energy),
       cmocka_unit_test(forces_and_moments_sum_to_zero),
       cmocka_unit_test(rigid_motion_gives_no_force),
