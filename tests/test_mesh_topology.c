@@ -56,6 +56,7 @@ static void compare_with_brute_force(vsc_mesh *mesh)
   vsc_topology topology;
   assert_int_equal(vsc_topology_make(mesh, &topology, NULL), VSC_OK);
   assert_int_equal(topology.crowded_faces, 0);
+  assert_int_equal(topology.one_sided_faces, 0);
   for (size_t t = 0; t < mesh->element_count; t++)
     for (int i = 0; i < 4; i++) {
       const uint32_t *tet = mesh->corners + 4 * t;
@@ -108,6 +109,30 @@ static void overlapping_tets_are_counted(void **state)
   vsc_mesh_free(mesh);
 }
 
+// An element pulled through a face, or put on the wrong side of it.
+static void folds_are_counted(void **state)
+{
+  (void)state;
+  const double nodes[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.2, 0.2, 1, 0.3, 0.3, 2};
+  for (int order = 0; order < 6; order++) {
+    static const uint32_t orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
+    for (int below = 0; below < 2; below++) {
+      double at[15];
+      const uint32_t *o = orders[order], tets[] = {0, 1, 2, 3, o[0], o[1], o[2], 4};
+      vsc_mesh *mesh;
+      vsc_topology topology;
+      memcpy(at, nodes, sizeof at);
+      if (below) at[14] = -2;
+      assert_int_equal(vsc_mesh_from_arrays(5, at, 2, tets, &mesh, NULL), VSC_OK);
+      assert_int_equal(vsc_topology_make(mesh, &topology, NULL), VSC_OK);
+      assert_int_equal(topology.one_sided_faces, !below);
+      if (!below) assert_int_equal(topology.one_sided_element, 1);
+      vsc_topology_free(&topology);
+      vsc_mesh_free(mesh);
+    }
+  }
+}
+
 static int compare_nodes(const void *a, const void *b)
 {
   const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
@@ -131,6 +156,7 @@ static void neighbours_in_a_hybrid_mesh(void **state)
   vsc_topology topology;
   assert_int_equal(vsc_topology_make(mesh, &topology, NULL), VSC_OK);
   assert_int_equal(topology.crowded_faces, 0);
+  assert_int_equal(topology.one_sided_faces, 0);
   assert_int_equal(topology.node_start[mesh->node_count], mesh->start[mesh->element_count]);
   for (size_t e = 0; e < mesh->element_count; e++) {
     for (int i = 0; i < vsc_mesh_kind(mesh, e)->corners; i++) {
@@ -285,7 +311,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_tet_is_listed_at_its_nodes),
     cmocka_unit_test(neighbours_are_those_of_brute_force),
-    cmocka_unit_test(overlapping_tets_are_counted),
+    cmocka_unit_test(overlapping_tets_are_counted), cmocka_unit_test(folds_are_counted),
     cmocka_unit_test(neighbours_in_a_hybrid_mesh),
     cmocka_unit_test(a_split_face_is_told),
     cmocka_unit_test(quadrilaterals_are_cut_through_their_smallest_node),

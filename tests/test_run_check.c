@@ -363,6 +363,18 @@ static void test_overlapping_elements(void **state)
   (void)state;
   write_torn("twice.vtu", false);
   assert_warns("--set mesh.file=twice.vtu", "mesh: three elements or more share a face, ");
+  // of two tets one has its tip on the wrong side of the face between them: turned right it lies in the other
+  save_text("fold.vtk", "# vtk DataFile Version 3.0\nfold\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n"
+                        "0 0 0 10 0 0 0 10 0 2 2 5 3 3 8\nCELLS 2 10\n4 0 1 2 3\n4 0 2 1 4\nCELL_TYPES 2\n10 10\n"
+                        "POINT_DATA 5\n");
+  save_text("fold.yaml", "mesh: {file: fold.vtk, unit: mm}\n"
+                         "materials: [{name: a, axial: {f: 10 kPa, s: 10 kPa, n: 10 kPa}, angular: {fs: 5 kPa, sn: 5 kPa, nf: 5 kPa},\n"
+                         "  volume_modulus: 100 kPa}]\ngravity: [0 m/s2, 0 m/s2, -9.81 m/s2]\ntime: {end: 0.1 ms}\n");
+  static const char words[] = "mesh: two elements lie on the same side of a face that they share, 1 times, as with element 1: ";
+  must("$V check fold.yaml -t 1");
+  assert_holds(said, words);
+  must("$V run fold.yaml -o fold");
+  assert_holds(complained, words);
 }
 
 // `boundary` may be the epicardium: what it has beside the endocardium, which is told where they meet.

@@ -154,6 +154,16 @@ static bool list_sides(const vsc_mesh *mesh, side_list *sides)
   return join_sides(sides, start);
 }
 
+// The node behind the smallest one as a face goes round its element.
+static uint32_t second_node(const vsc_mesh *mesh, const side *s)
+{
+  const int *at = vsc_mesh_kind(mesh, s->element)->faces[s->number], corners = at[3] < 0 ? 3 : 4;
+  const uint32_t *nodes = vsc_mesh_corners(mesh, s->element);
+  int i = 0;
+  while (nodes[at[i]] != s->nodes[0]) i++;
+  return nodes[at[(i + 1) % corners]];
+}
+
 static bool find_neighbours(const vsc_mesh *mesh, vsc_topology *topology)
 {
   side_list sides;
@@ -165,8 +175,12 @@ static bool find_neighbours(const vsc_mesh *mesh, vsc_topology *topology)
     const size_t next = sides.next[k];
     if (next == k) continue;
     topology->neighbours[s->element][s->number] = (int32_t)sides.items[next].element;
-    if (next > k || sides.next[next] == k) continue;
-    if (topology->crowded_faces++ == 0) topology->crowded_element = s->element;
+    if (next > k) continue;
+    if (sides.next[next] != k) {
+      if (topology->crowded_faces++ == 0) topology->crowded_element = s->element;
+    } else if (second_node(mesh, s) == second_node(mesh, &sides.items[next])) {
+      if (topology->one_sided_faces++ == 0) topology->one_sided_element = s->element;
+    }
   }
   free_sides(&sides);
   return listed;

@@ -28,6 +28,9 @@ typedef struct vsc_topology {
                          // mesh; such a face counts as inside, and each of its elements names the
                          // next of them as its neighbour
   uint32_t crowded_element;  // one that claims such a face, where there is one
+  size_t one_sided_faces;    // faces on the same side of which both their elements lie (they overlap, the mesh is folded
+                             // there), of elements that are the right way out: 0 in a sound mesh
+  uint32_t one_sided_element;  // one that has such a face, where there is one
 } vsc_topology;
 
 // Fills `topology` for the elements of `mesh`; its content is owned by the caller. When memory is short

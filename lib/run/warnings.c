@@ -322,14 +322,25 @@ static void warn_parts(writer *w, const vsc_model *model)
 }
 
 // Faces that only overlapping elements can share.
-static void warn_crowded(writer *w, const vsc_mesh *mesh)
+static void warn_overlaps(writer *w, const vsc_mesh *mesh)
 {
   vsc_topology topology = {0};
-  if (vsc_topology_make(mesh, &topology, NULL) == VSC_OK && topology.crowded_faces > 0)
+  const bool known = vsc_topology_make(mesh, &topology, NULL) == VSC_OK;
+  if (known && topology.crowded_faces > 0)
     warn(w, "mesh: three elements or more share a face, %zu times, as with element %u: they overlap, or are "
          "listed twice; remove what is double",
          topology.crowded_faces, mesh->element_source[topology.crowded_element]);
+  if (known && topology.one_sided_faces > 0)
+    warn(w, "mesh: two elements lie on the same side of a face that they share, %zu times, as with element %u: the mesh is "
+         "folded there (elements that were inside out in it have been turned); mend it where it was made",
+         topology.one_sided_faces, mesh->element_source[topology.one_sided_element]);
   vsc_topology_free(&topology);
+}
+
+// Whether some elements came left-handed and others not: those that were inside out.
+static bool is_of_both_hands(const vsc_mesh *mesh)
+{
+  return mesh->report.turned_elements > 0 && mesh->report.turned_elements < mesh->element_count;
 }
 
 static void warn_setting(writer *w, const vsc_problem *problem)
@@ -421,7 +432,7 @@ static void warn_idle_keys(writer *w, const vsc_scene *scene)
 int vsc_check_warnings(const vsc_problem *problem, bool thorough, FILE *stream, const char *prefix)
 {
   writer w = {stream, prefix, 0};
-  if (thorough) warn_crowded(&w, problem->mesh);
+  if (thorough || is_of_both_hands(problem->mesh)) warn_overlaps(&w, problem->mesh);
   for (size_t m = 0; m < problem->model->material_count; m++)
     warn_material(&w, problem, m);
   warn_membranes(&w, problem);
