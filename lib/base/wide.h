@@ -25,14 +25,20 @@ typedef int64_t vsc_wide_mask __attribute__((vector_size(VSC_LANES * sizeof(int6
 
 // A function of loops over vectors, compiled for AVX2 too and picked when the program starts. All that it calls
 // with vectors must be inlined. (The thread sanitizer is not there yet when it is picked.)
-#if defined __x86_64__ && defined __GNUC__ && !defined __clang__ && !defined __SANITIZE_THREAD__
+#if defined __x86_64__ && defined __GNUC__ && !defined __clang__ && !defined __SANITIZE_THREAD__ && \
+    !defined __SANITIZE_ADDRESS__
 #define VSC_CLONED __attribute__((target_clones("avx2", "default")))
 #else
 #define VSC_CLONED
 #endif
 
-// Vectors never cross a real call: every function on them is inlined.
+// Vectors never cross a real call: every function on them is inlined, but for sanitizers, whose checks would take
+// minutes to compile then (and calls stay within one source file and its instruction set).
+#ifdef __SANITIZE_ADDRESS__
+#define VSC_INLINE static inline
+#else
 #define VSC_INLINE static inline __attribute__((always_inline))
+#endif
 
 VSC_INLINE vsc_wide vsc_splat(double a)
 {
