@@ -255,7 +255,7 @@ static void short_memory_is_reported(void **state)
     vsc_alloc_fail_after(-1);
     vsc_mesh_free(mesh);
     if (status == VSC_OK) {
-      assert_int_equal(after, 9);  // used nodes, topology's six lists, two of the squeezing
+      assert_int_equal(after, 10);  // used nodes, topology's seven lists, two of the squeezing
       return;
     }
     assert_int_equal(status, VSC_SYSTEM);

@@ -246,6 +246,64 @@ static void quadrilaterals_are_cut_through_their_smallest_node(void **state)
   vsc_mesh_free(mesh);
 }
 
+// Faces that have all nodes but one in common are two: the largest, or the smallest among thousands.
+static void all_nodes_of_a_face_count(void **state)
+{
+  (void)state;
+  const uint8_t kinds[2] = {VSC_HEX, VSC_HEX};
+  vsc_mesh *mesh = vsc_mesh_create_cells(13, 2, kinds, 0);
+  uint8_t open[2];
+  for (uint32_t i = 0; i < 16; i++) mesh->corners[i] = i < 11 ? i : i - 3;
+  for (uint32_t i = 0; i < 3; i++) mesh->corners[8 + i] = i;
+  assert_int_equal(vsc_open_faces(mesh, open, NULL), VSC_OK);
+  assert_int_equal(open[0], 0x3f);
+  assert_int_equal(open[1], 0x3f);
+  mesh->corners[11] = 3;
+  assert_int_equal(vsc_open_faces(mesh, open, NULL), VSC_OK);
+  assert_true(open[0] == open[1] && open[0] != 0x3f);
+  vsc_mesh_free(mesh);
+  const uint32_t tets[2][8] = {{0, 4000, 4001, 4002, 2, 4000, 4001, 4003}, {0, 4000, 4001, 4002, 0, 4000, 4001, 4003}};
+  for (int k = 0; k < 2; k++) {
+    mesh = vsc_mesh_create(4096, 2, 0);
+    memcpy(mesh->corners, tets[k], sizeof tets[k]);
+    assert_int_equal(vsc_open_faces(mesh, open, NULL), VSC_OK);
+    assert_true(open[0] == open[1] && (open[0] == 0xf) == (k == 0));
+    vsc_mesh_free(mesh);
+  }
+}
+
+// Of thousands of nodes, numbered anyhow, the faces that are open are those on the sides of the block.
+static void large_meshes_have_their_boundary(void **state)
+{
+  (void)state;
+  enum { SIDE = 13 };
+  for (int hybrid = 0; hybrid < 2; hybrid++) {
+    const int n[3] = {SIDE, SIDE, SIDE};
+    vsc_mesh *mesh = hybrid ? hybrid_block(SIDE, 0.1, 4) : box_mesh(n, 1, NULL);
+    uint8_t *open = NULL, *on_side = NULL;
+    assert_true(mesh->node_count > 2048 && VSC_NEW(open, mesh->element_count) && VSC_NEW(on_side, mesh->node_count));
+    const size_t factor = 1777;  // a prime, and no divisor of the number of nodes
+    assert_true(mesh->node_count % factor != 0);
+    for (size_t i = 0; i < mesh->node_count; i++)
+      for (int a = 0; a < 3; a++) {
+        const double x = mesh->nodes[3 * i + (size_t)a];
+        on_side[i * factor % mesh->node_count] |= (uint8_t)((x < 1e-9) << a | (x > SIDE - 1e-9) << (3 + a));
+      }
+    renumber(mesh, factor);
+    assert_int_equal(vsc_open_faces(mesh, open, NULL), VSC_OK);
+    for (size_t e = 0; e < mesh->element_count; e++)
+      for (int f = 0; f < vsc_mesh_kind(mesh, e)->face_count; f++) {
+        uint32_t nodes[4];
+        face_nodes(mesh, e, f, nodes);
+        const int side = on_side[nodes[0]] & on_side[nodes[1]] & on_side[nodes[2]] & on_side[nodes[3]];
+        assert_int_equal(open[e] >> f & 1, side != 0);
+      }
+    vsc_free(open);
+    vsc_free(on_side);
+    vsc_mesh_free(mesh);
+  }
+}
+
 static void a_surface_is_its_own_boundary(void **state)
 {
   (void)state;
@@ -315,6 +373,8 @@ int main(void)
     cmocka_unit_test(neighbours_in_a_hybrid_mesh),
     cmocka_unit_test(a_split_face_is_told),
     cmocka_unit_test(quadrilaterals_are_cut_through_their_smallest_node),
+    cmocka_unit_test(all_nodes_of_a_face_count),
+    cmocka_unit_test(large_meshes_have_their_boundary),
     cmocka_unit_test(a_surface_is_its_own_boundary),
     cmocka_unit_test(the_boundary_of_a_box_faces_outwards),
     cmocka_unit_test(short_memory_is_reported),

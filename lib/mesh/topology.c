@@ -21,11 +21,9 @@ static void list_node_elements(const vsc_mesh *mesh, vsc_topology *topology)
   start[mesh->node_count] = corners;
 }
 
-// A face of an element by its nodes, ascending; a triangle has NO_NODE as its last.
+// The nodes of an element's face, ascending; a triangle has NO_NODE as its last.
 typedef struct side {
   uint32_t nodes[4];
-  uint32_t element;
-  int number;
 } side;
 
 #define NO_NODE UINT32_MAX
@@ -41,9 +39,7 @@ static side side_of(const vsc_mesh *mesh, uint32_t element, int number)
 {
   const int *at = vsc_mesh_kind(mesh, element)->faces[number];
   const uint32_t *corners = vsc_mesh_corners(mesh, element);
-  side s = {.nodes = {corners[at[0]], corners[at[1]], corners[at[2]], at[3] < 0 ? NO_NODE : corners[at[3]]},
-            .element = element,
-            .number = number};
+  side s = {{corners[at[0]], corners[at[1]], corners[at[2]], at[3] < 0 ? NO_NODE : corners[at[3]]}};
   put_in_order(&s.nodes[0], &s.nodes[1]);
   put_in_order(&s.nodes[2], &s.nodes[3]);
   put_in_order(&s.nodes[0], &s.nodes[2]);
@@ -52,52 +48,78 @@ static side side_of(const vsc_mesh *mesh, uint32_t element, int number)
   return s;
 }
 
-static bool are_one_face(const side *a, const side *b)
-{
-  return memcmp(a->nodes, b->nodes, sizeof a->nodes) == 0;
-}
+// Sides are sorted by ranges of their smallest node, so that the search for those with the same nodes stays in the
+// caches: meshes whose nodes and elements come in any order take little longer than others. A side then is
+//   element, number + 8 (smallest node - first of the range), the other nodes: two, or three where faces have four,
+// in as little memory as that takes: there are many.
+enum { RANGES = 1024, ELEMENT = 0, FACE = 1, OTHERS = 2, NUMBER_BITS = 3 };
 
-// All sides, and for each the next one with the same nodes, in a cycle; one that is alone is its own next.
 typedef struct side_list {
-  size_t count;
-  side *items;
-  size_t *next;
+  const vsc_mesh *mesh;
+  size_t words;              // of a side
+  int bits;                  // a node's range is its number divided by 2^bits
+  size_t start[RANGES + 1];  // range r has the sides from start[r] on
+  uint32_t *items;
+  // of one range:
+  uint32_t *table;           // 1 + the last side of each face that has come
+  uint32_t *next;            // the next side with the same nodes, in a cycle; one that is alone is its own next
 } side_list;
 
-// Sides are sorted by ranges of their smallest node first, so that the search for those with the same nodes stays in
-// the caches: meshes whose nodes and elements come in any order take little longer than others.
-enum { RANGES = 256 };
-
-// A node's range is its number divided by 2^bits.
-static int range_bits(const vsc_mesh *mesh)
+static const uint32_t *side_at(const side_list *sides, size_t k)
 {
-  int bits = 0;
-  while (mesh->node_count >> bits >= RANGES) bits++;
-  return bits;
+  return sides->items + sides->words * k;
 }
 
-// Range r gets the sides from start[r] on.
-static void fill_ranges(const vsc_mesh *mesh, side_list *sides, size_t start[RANGES + 1])
+static int number_of(const uint32_t *item)
 {
-  const int bits = range_bits(mesh);
-  size_t place[RANGES + 1] = {0};
-  for (uint32_t e = 0; e < mesh->element_count; e++)
-    for (int i = 0; i < vsc_mesh_kind(mesh, e)->face_count; i++) place[(side_of(mesh, e, i).nodes[0] >> bits) + 1]++;
-  for (int r = 0; r < RANGES; r++) place[r + 1] += place[r];
-  memcpy(start, place, sizeof place);
+  return (int)(item[FACE] & ((1 << NUMBER_BITS) - 1));
+}
+
+static void count_sides(side_list *sides)
+{
+  const vsc_mesh *mesh = sides->mesh;
+  bool cornered[2] = {false};  // faces have three nodes, four
+  while (mesh->node_count >> sides->bits >= RANGES) sides->bits++;
+  for (uint32_t e = 0; e < mesh->element_count; e++) {
+    const vsc_cell_kind *kind = vsc_mesh_kind(mesh, e);
+    for (int i = 0; i < kind->face_count; i++) {
+      cornered[kind->faces[i][3] >= 0] = true;
+      sides->start[(side_of(mesh, e, i).nodes[0] >> sides->bits) + 1]++;
+    }
+  }
+  for (int r = 0; r < RANGES; r++) sides->start[r + 1] += sides->start[r];
+  sides->words = OTHERS + (cornered[1] ? 3 : 2);
+}
+
+static void fill_sides(side_list *sides)
+{
+  const vsc_mesh *mesh = sides->mesh;
+  const uint32_t mask = (uint32_t)((UINT64_C(1) << sides->bits) - 1);
+  size_t place[RANGES + 1];
+  memcpy(place, sides->start, sizeof place);
   for (uint32_t e = 0; e < mesh->element_count; e++)
     for (int i = 0; i < vsc_mesh_kind(mesh, e)->face_count; i++) {
       const side s = side_of(mesh, e, i);
-      sides->items[place[s.nodes[0] >> bits]++] = s;
+      uint32_t *item = sides->items + sides->words * place[s.nodes[0] >> sides->bits]++;
+      item[ELEMENT] = e;
+      item[FACE] = (s.nodes[0] & mask) << NUMBER_BITS | (uint32_t)i;
+      for (size_t w = OTHERS; w < sides->words; w++) item[w] = s.nodes[w - OTHERS + 1];
     }
 }
 
 // A number without pattern for the nodes of a side.
-static size_t mix(const side *s)
+static size_t mix(const uint32_t *item, size_t words)
 {
-  uint64_t h = 0;
-  for (int i = 0; i < 4; i++) h = (h ^ s->nodes[i]) * UINT64_C(0x9e3779b97f4a7c15);
+  uint64_t h = item[FACE] >> NUMBER_BITS;
+  for (size_t w = OTHERS; w < words; w++) h = (h ^ item[w]) * UINT64_C(0x9e3779b97f4a7c15);
   return (size_t)(h >> 32);
+}
+
+static bool are_one_face(const uint32_t *a, const uint32_t *b, size_t words)
+{
+  bool same = a[FACE] >> NUMBER_BITS == b[FACE] >> NUMBER_BITS;
+  for (size_t w = OTHERS; w < words; w++) same = same && a[w] == b[w];
+  return same;
 }
 
 // The places of a table for `count` sides: a power of two.
@@ -108,93 +130,103 @@ static size_t places_for(size_t count)
   return places;
 }
 
-// Joins the sides [first, end) in cycles. `table` has room for them and holds 1 + the last side of each face that has
-// come.
-static void join_range(side_list *sides, size_t first, size_t end, size_t *table)
+// Joins the `count` sides from `first` on in cycles.
+static void join_range(side_list *sides, size_t first, size_t count)
 {
-  const size_t places = places_for(end - first);
+  const size_t places = places_for(count);
+  uint32_t *const table = sides->table, *const next = sides->next;
   memset(table, 0, places * sizeof *table);
-  for (size_t k = first; k < end; k++) {
-    size_t *at = table + (mix(&sides->items[k]) & (places - 1));
-    while (*at != 0 && !are_one_face(&sides->items[*at - 1], &sides->items[k]))
+  for (uint32_t k = 0; k < count; k++) {
+    const uint32_t *item = side_at(sides, first + k);
+    uint32_t *at = table + (mix(item, sides->words) & (places - 1));
+    while (*at != 0 && !are_one_face(side_at(sides, first + *at - 1), item, sides->words))
       if (++at == table + places) at = table;
-    sides->next[k] = k;
+    next[k] = k;
     if (*at != 0) {
-      sides->next[k] = sides->next[*at - 1];
-      sides->next[*at - 1] = k;
+      next[k] = next[*at - 1];
+      next[*at - 1] = k;
     }
     *at = k + 1;
   }
 }
 
-static bool join_sides(side_list *sides, const size_t start[RANGES + 1])
-{
-  size_t most = 0, *table;
-  for (int r = 0; r < RANGES; r++) most = start[r + 1] - start[r] > most ? start[r + 1] - start[r] : most;
-  if (!VSC_NEW(table, places_for(most))) return false;
-  for (int r = 0; r < RANGES; r++) join_range(sides, start[r], start[r + 1], table);
-  vsc_free(table);
-  return true;
-}
+// Takes the `count` sides of a range, joined, and the context.
+typedef void take_range(const side_list *sides, size_t first, size_t count, void *context);
 
-static void free_sides(side_list *sides)
+// Gives `take` all sides, range by range. False when memory is short.
+static bool join_sides(const vsc_mesh *mesh, take_range *take, void *context)
 {
+  side_list *sides;
+  size_t most = 0;
+  bool room = VSC_NEW(sides, 1);
+  if (!room) return false;
+  sides->mesh = mesh;
+  count_sides(sides);
+  for (int r = 0; r < RANGES; r++)
+    if (sides->start[r + 1] - sides->start[r] > most) most = sides->start[r + 1] - sides->start[r];
+  room = most < UINT32_MAX && VSC_NEW(sides->items, sides->words * sides->start[RANGES]) &&
+         VSC_NEW(sides->table, places_for(most)) && VSC_NEW(sides->next, most);
+  if (room) fill_sides(sides);
+  for (int r = 0; r < RANGES && room; r++) {
+    const size_t first = sides->start[r], count = sides->start[r + 1] - first;
+    join_range(sides, first, count);
+    take(sides, first, count, context);
+  }
   vsc_free(sides->items);
+  vsc_free(sides->table);
   vsc_free(sides->next);
-}
-
-// To be released also when memory was short.
-static bool list_sides(const vsc_mesh *mesh, side_list *sides)
-{
-  size_t start[RANGES + 1];
-  *sides = (side_list){0};
-  for (size_t e = 0; e < mesh->element_count; e++) sides->count += (size_t)vsc_mesh_kind(mesh, e)->face_count;
-  if (!VSC_NEW(sides->items, sides->count) || !VSC_NEW(sides->next, sides->count)) return false;
-  fill_ranges(mesh, sides, start);
-  return join_sides(sides, start);
+  vsc_free(sides);
+  return room;
 }
 
 // The node behind the smallest one as a face goes round its element.
-static uint32_t second_node(const vsc_mesh *mesh, const side *s)
+static uint32_t second_node(const vsc_mesh *mesh, const uint32_t *item)
 {
-  const int *at = vsc_mesh_kind(mesh, s->element)->faces[s->number], corners = at[3] < 0 ? 3 : 4;
-  const uint32_t *nodes = vsc_mesh_corners(mesh, s->element);
-  int i = 0;
-  while (nodes[at[i]] != s->nodes[0]) i++;
-  return nodes[at[(i + 1) % corners]];
+  const int *at = vsc_mesh_kind(mesh, item[ELEMENT])->faces[number_of(item)], corners = at[3] < 0 ? 3 : 4;
+  const uint32_t *nodes = vsc_mesh_corners(mesh, item[ELEMENT]);
+  int smallest = 0;
+  for (int i = 1; i < corners; i++)
+    if (nodes[at[i]] < nodes[at[smallest]]) smallest = i;
+  return nodes[at[(smallest + 1) % corners]];
+}
+
+static void note_neighbours(const side_list *sides, size_t first, size_t count, void *context)
+{
+  vsc_topology *topology = context;
+  for (size_t k = 0; k < count; k++) {
+    const size_t next = sides->next[k];
+    const uint32_t *item = side_at(sides, first + k), *other = side_at(sides, first + next);
+    if (next == k) continue;
+    topology->neighbours[item[ELEMENT]][number_of(item)] = (int32_t)other[ELEMENT];
+    if (next > k) continue;
+    if (sides->next[next] != k) {
+      if (topology->crowded_faces++ == 0) topology->crowded_element = item[ELEMENT];
+    } else if (second_node(sides->mesh, item) == second_node(sides->mesh, other)) {
+      if (topology->one_sided_faces++ == 0) topology->one_sided_element = item[ELEMENT];
+    }
+  }
 }
 
 static bool find_neighbours(const vsc_mesh *mesh, vsc_topology *topology)
 {
-  side_list sides;
   for (size_t e = 0; e < mesh->element_count; e++)
     for (int i = 0; i < VSC_MOST_FACES; i++) topology->neighbours[e][i] = VSC_OUTSIDE;
-  const bool listed = list_sides(mesh, &sides);
-  for (size_t k = 0; k < sides.count && listed; k++) {
-    const side *s = &sides.items[k];
-    const size_t next = sides.next[k];
-    if (next == k) continue;
-    topology->neighbours[s->element][s->number] = (int32_t)sides.items[next].element;
-    if (next > k) continue;
-    if (sides.next[next] != k) {
-      if (topology->crowded_faces++ == 0) topology->crowded_element = s->element;
-    } else if (second_node(mesh, s) == second_node(mesh, &sides.items[next])) {
-      if (topology->one_sided_faces++ == 0) topology->one_sided_element = s->element;
-    }
+  return join_sides(mesh, note_neighbours, topology);
+}
+
+static void note_open(const side_list *sides, size_t first, size_t count, void *context)
+{
+  uint8_t *open = context;
+  for (size_t k = 0; k < count; k++) {
+    const uint32_t *item = side_at(sides, first + k);
+    if (sides->next[k] == k) open[item[ELEMENT]] |= (uint8_t)(1 << number_of(item));
   }
-  free_sides(&sides);
-  return listed;
 }
 
 vsc_status vsc_open_faces(const vsc_mesh *mesh, uint8_t *open, vsc_error *error)
 {
-  side_list sides;
-  const bool listed = list_sides(mesh, &sides);
   memset(open, 0, mesh->element_count);
-  for (size_t k = 0; k < sides.count && listed; k++)
-    if (sides.next[k] == k) open[sides.items[k].element] |= (uint8_t)(1 << sides.items[k].number);
-  free_sides(&sides);
-  return listed ? VSC_OK : vsc_fail_memory(error, "the mesh's boundary");
+  return join_sides(mesh, note_open, open) ? VSC_OK : vsc_fail_memory(error, "the mesh's boundary");
 }
 
 // Whether a triangle of another element lies on a quadrilateral face: on any two opposite corners
