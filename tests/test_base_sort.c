@@ -8,7 +8,7 @@
 #include "base/mem.h"
 #include "close.h"
 
-enum { MOST_WORDS = 4 };
+enum { MOST_WORDS = 6 };
 
 // `keys` random words, the last of few values, and a number that tells the records' order.
 static void fill(uint32_t *records, size_t count, size_t words, size_t keys)
@@ -52,6 +52,28 @@ static void records_are_sorted_by_their_keys(void **state)
       for (size_t count = 0; count < 5000; count = 3 * count + 1) check(count, words, keys);
 }
 
+// Wherever in a word the bits lie in which records differ, and however many these are.
+static void any_bits_count(void **state)
+{
+  (void)state;
+  enum { COUNT = 300 };
+  for (int low = 0; low < 32; low++)
+    for (int bits = 1; low + bits <= 32; bits++) {
+      uint32_t records[COUNT][2], seed = 1;
+      const uint32_t mask = UINT32_MAX >> (32 - bits) << low;
+      for (uint32_t k = 0; k < COUNT; k++) {
+        seed = seed * 1664525u + 1013904223u;
+        records[k][0] = ((seed ^ seed >> 16) & mask) | (~mask & 0xa5a5a5a5u);
+        records[k][1] = k;
+      }
+      assert_true(vsc_sort(records, COUNT, 2, 1));
+      for (int k = 1; k < COUNT; k++) {
+        const bool tied = records[k][0] == records[k - 1][0];
+        assert_true(tied ? records[k][1] > records[k - 1][1] : records[k][0] > records[k - 1][0]);
+      }
+    }
+}
+
 static void short_memory_leaves_them_alone(void **state)
 {
   (void)state;
@@ -82,6 +104,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(records_are_sorted_by_their_keys),
+      cmocka_unit_test(any_bits_count),
       cmocka_unit_test(numbers_are_compared),
       cmocka_unit_test(short_memory_leaves_them_alone),
   };
