@@ -173,6 +173,8 @@ static void rules_integrate_gradients_exactly(void **state)
         add_flux((const double(*)[3])x, kind->faces[f][0], kind->faces[f][1], kind->faces[f][2], 1, flux);
       else
         add_quad_flux((const double(*)[3])x, kind->faces[f], flux);
+    double det[VSC_MOST_POINTS];
+    vsc_mesh_jacobians(mesh, e, &rule, det);
     for (int q = 0; q < rule.points; q++) {
       double h[3][3] = {{0}};
       for (int k = 0; k < 3; k++)
@@ -182,6 +184,7 @@ static void rules_integrate_gradients_exactly(void **state)
         double dual[3];
         vsc_cross(h[(k + 1) % 3], h[(k + 2) % 3], dual);
         if (k == 0) volume += rule.weight[q] * vsc_dot(h[0], dual);
+        assert_close(det[q], vsc_dot(h[k], dual), 1e-13, 0);
         for (int c = 0; c < kind->corners; c++)
           for (int i = 0; i < 3; i++) sum[c][i] += rule.weight[q] * rule.D[q][k][c] * dual[i];
       }

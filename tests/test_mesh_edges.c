@@ -35,11 +35,31 @@ static void no_triangles_have_no_sides(void **state)
   vsc_free(sides);
 }
 
+// Two quadratic tets on the edge 0 1, which both or the second alone have 9 in its middle.
+static void middles_that_are_apart_are_told(void **state)
+{
+  (void)state;
+  const uint8_t kinds[2] = {VSC_TET10, VSC_TET10};
+  for (int same = 0; same < 2; same++) {
+    const uint32_t corners[20] = {0, 1, 2, 3, same ? 9 : 10, 11, 12, 13, 14, 15, 1, 0, 4, 5, 9, 16, 17, 18, 19, 20};
+    vsc_mesh *mesh = vsc_mesh_create_cells(21, 2, kinds, 0);
+    vsc_edges edges;
+    for (int i = 0; i < 20; i++) mesh->corners[i] = corners[i];
+    assert_int_equal(vsc_edges_list(mesh, &edges, NULL), VSC_OK);
+    assert_int_equal(edges.count, 11);
+    assert_int_equal(edges.apart, !same);
+    assert_int_equal(vsc_edges_find(&edges, 1, 0)->middle, 9);  // the smaller one
+    vsc_edges_free(&edges);
+    vsc_mesh_free(mesh);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(sides_of_one_edge_follow_one_another),
       cmocka_unit_test(no_triangles_have_no_sides),
+      cmocka_unit_test(middles_that_are_apart_are_told),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -114,13 +114,13 @@ static double longest_edge(const vsc_mesh *mesh, size_t element)
 {
   const uint32_t *corner = vsc_mesh_corners(mesh, element);
   const vsc_cell_kind *kind = vsc_mesh_kind(mesh, element);
-  double longest = 0, edge[3];
+  double square = 0, edge[3];
   for (int k = 0; k < kind->edge_count; k++) {
     vsc_subtract(mesh->nodes + 3 * (size_t)corner[kind->edges[k][1]],
                  mesh->nodes + 3 * (size_t)corner[kind->edges[k][0]], edge);
-    longest = fmax(longest, vsc_norm(edge));
+    square = fmax(square, vsc_dot(edge, edge));
   }
-  return longest;
+  return sqrt(square);
 }
 
 static bool repeats_node(const uint32_t *corner, int corners)
@@ -131,30 +131,9 @@ static bool repeats_node(const uint32_t *corner, int corners)
   return false;
 }
 
-static vsc_status check_elements(const vsc_mesh *mesh, const char *name, vsc_error *error)
-{
-  culprits repeated = {0}, flat = {0};
-  for (size_t e = 0; e < mesh->element_count; e++) {
-    if (repeats_node(vsc_mesh_corners(mesh, e), vsc_mesh_kind(mesh, e)->corners)) {
-      blame_element(&repeated, mesh, e);
-      continue;
-    }
-    const double edge = longest_edge(mesh, e);
-    const double volume = fabs(vsc_mesh_element_volume(mesh, e));
-    const double relative = edge > 0 ? volume / edge / edge / edge : 0;
-    if (!(relative >= DEGENERATE)) blame_element(&flat, mesh, e);
-  }
-  const vsc_status status = refuse(&repeated, name, "the same point twice in",
-                                   "remove them or mesh again", error);
-  if (status != VSC_OK) return status;
-  return refuse(&flat, name,
-                "degenerate, with a volume below 1e-12 of the longest edge cubed:",
-                "remove them or mesh again", error);
-}
-
 // The corners in another order, so that the volume changes sign: a tet's last two and a pyramid's
 // second and fourth are exchanged, a hexahedron's bottom and top, a wedge's triangles.
-static void turn_left_handed(vsc_mesh *mesh)
+static void turn(vsc_mesh *mesh, size_t element)
 {
   static const int turned[VSC_CELLS][VSC_MOST_CORNERS] = {[VSC_TET] = {0, 1, 3, 2},
                                                           [VSC_HEX] = {4, 5, 6, 7, 0, 1, 2, 3},
@@ -162,15 +141,56 @@ static void turn_left_handed(vsc_mesh *mesh)
                                                           [VSC_PYRAMID] = {0, 3, 2, 1, 4},
                                                           [VSC_TET10] = {0, 1, 3, 2, 4, 8, 7, 6, 5,
                                                                          9}};
+  uint32_t before[VSC_MOST_CORNERS], *corner = mesh->corners + mesh->start[element];
+  const int corners = vsc_mesh_kind(mesh, element)->corners;
+  memcpy(before, corner, (size_t)corners * sizeof *corner);
+  for (int i = 0; i < corners; i++) corner[i] = before[turned[mesh->kinds[element]][i]];
+  mesh->report.turned_elements++;
+}
+
+static bool is_folded(const vsc_mesh *mesh, size_t element, const vsc_cell_rule *rule)
+{
+  if (mesh->kinds[element] == VSC_TET) return false;
+  double det[VSC_MOST_POINTS];
+  vsc_mesh_jacobians(mesh, element, rule, det);
+  for (int q = 0; q < rule->points; q++)
+    if (!(det[q] > 0)) return true;
+  return false;
+}
+
+static vsc_status refuse_folded(const culprits *folded, const char *name, vsc_error *error)
+{
+  return refuse(folded, name,
+                "folded, with a Jacobian that is not positive at an integration point:",
+                "check the order of their points, or mesh again", error);
+}
+
+// Turns left-handed elements, and refuses those that are nothing to compute on.
+static vsc_status check_elements(vsc_mesh *mesh, const char *name, vsc_error *error)
+{
+  culprits repeated = {0}, flat = {0}, folded = {0};
+  vsc_cell_rule rules[VSC_CELLS];
+  for (int kind = 0; kind < VSC_CELLS; kind++) rules[kind] = vsc_cell_rule_of((vsc_cell)kind);
   mesh->report.turned_elements = 0;
   for (size_t e = 0; e < mesh->element_count; e++) {
-    if (vsc_mesh_element_volume(mesh, e) > 0) continue;
-    uint32_t before[VSC_MOST_CORNERS], *corner = mesh->corners + mesh->start[e];
-    const int corners = vsc_mesh_kind(mesh, e)->corners;
-    memcpy(before, corner, (size_t)corners * sizeof *corner);
-    for (int i = 0; i < corners; i++) corner[i] = before[turned[mesh->kinds[e]][i]];
-    mesh->report.turned_elements++;
+    const vsc_cell_rule *rule = &rules[mesh->kinds[e]];
+    vsc_mesh_prefetch(mesh, e);
+    if (repeats_node(vsc_mesh_corners(mesh, e), vsc_mesh_kind(mesh, e)->corners)) {
+      blame_element(&repeated, mesh, e);
+      continue;
+    }
+    const double edge = longest_edge(mesh, e), volume = vsc_mesh_volume_by(mesh, e, rule);
+    const double relative = edge > 0 ? fabs(volume) / edge / edge / edge : 0;
+    if (!(relative >= DEGENERATE)) blame_element(&flat, mesh, e);
+    if (!(volume > 0)) turn(mesh, e);
+    if (is_folded(mesh, e, rule)) blame_element(&folded, mesh, e);
   }
+  vsc_status status = refuse(&repeated, name, "the same point twice in",
+                             "remove them or mesh again", error);
+  if (status == VSC_OK)
+    status = refuse(&flat, name, "degenerate, with a volume below 1e-12 of the longest edge cubed:",
+                    "remove them or mesh again", error);
+  return status == VSC_OK ? refuse_folded(&folded, name, error) : status;
 }
 
 vsc_status vsc_mesh_check_folds(const vsc_mesh *mesh, const char *name, vsc_error *error)
@@ -178,16 +198,9 @@ vsc_status vsc_mesh_check_folds(const vsc_mesh *mesh, const char *name, vsc_erro
   culprits folded = {0};
   vsc_cell_rule rules[VSC_CELLS];
   for (int kind = 0; kind < VSC_CELLS; kind++) rules[kind] = vsc_cell_rule_of((vsc_cell)kind);
-  for (size_t e = 0; e < mesh->element_count; e++) {
-    const vsc_cell_rule *rule = &rules[mesh->kinds[e]];
-    bool sound = true;
-    for (int q = 0; q < rule->points && mesh->kinds[e] != VSC_TET; q++)
-      sound = sound && vsc_mesh_jacobian(mesh, e, rule, q) > 0;
-    if (!sound) blame_element(&folded, mesh, e);
-  }
-  return refuse(&folded, name,
-                "folded, with a Jacobian that is not positive at an integration point:",
-                "check the order of their points, or mesh again", error);
+  for (size_t e = 0; e < mesh->element_count; e++)
+    if (is_folded(mesh, e, &rules[mesh->kinds[e]])) blame_element(&folded, mesh, e);
+  return refuse_folded(&folded, name, error);
 }
 
 // A force across a quadrilateral spreads over four nodes in another way than across two triangles
@@ -225,20 +238,31 @@ static bool has_quadratic(const vsc_mesh *mesh)
   return false;
 }
 
-// Quadratic elements fit together where they have the middles of common edges in common, and where no
-// node is the middle of one element's edge and another's corner.
-static vsc_status check_middles(const vsc_mesh *mesh, const char *name, vsc_error *error)
+static bool has_linear(const vsc_mesh *mesh)
 {
-  culprits linear = {0}, apart = {0};
-  vsc_edges edges;
-  uint8_t *is_corner;
+  for (size_t e = 0; e < mesh->element_count; e++)
+    if (mesh->kinds[e] != VSC_TET10) return true;
+  return false;
+}
+
+static vsc_status refuse_linear(const vsc_mesh *mesh, const char *name, vsc_error *error)
+{
+  culprits linear = {0};
   for (size_t e = 0; e < mesh->element_count; e++)
     if (mesh->kinds[e] != VSC_TET10) blame_element(&linear, mesh, e);
-  vsc_status status = refuse(&linear, name, "beside quadratic tetrahedra there are",
-                             "make all elements quadratic tetrahedra, or all linear", error);
-  if (status != VSC_OK) return status;
+  return refuse(&linear, name, "beside quadratic tetrahedra there are",
+                "make all elements quadratic tetrahedra, or all linear", error);
+}
+
+// Quadratic elements fit together where they have the middles of common edges in common, and where no
+// node is the middle of one element's edge and another's corner. Lists the edges.
+static vsc_status check_middles(const vsc_mesh *mesh, const char *name, vsc_edges *edges, vsc_error *error)
+{
+  culprits apart = {0};
+  uint8_t *is_corner;
+  if (has_linear(mesh)) return refuse_linear(mesh, name, error);
   if (!VSC_NEW(is_corner, mesh->node_count)) return vsc_fail_memory(error, "the mesh's edges");
-  status = vsc_edges_list(mesh, &edges, error);
+  const vsc_status status = vsc_edges_list(mesh, edges, error);
   for (size_t e = 0; e < mesh->element_count; e++)
     for (int i = 0; i < 4; i++) is_corner[vsc_mesh_corners(mesh, e)[i]] = 1;
   for (size_t e = 0; e < mesh->element_count && status == VSC_OK; e++) {
@@ -247,13 +271,13 @@ static vsc_status check_middles(const vsc_mesh *mesh, const char *name, vsc_erro
     for (int k = 0; k < 6; k++) {
       const int *ends = vsc_cells[VSC_TET10].edges[k];
       const uint32_t middle = corner[4 + k];
-      sound = sound && !is_corner[middle] &&
-              vsc_edges_find(&edges, corner[ends[0]], corner[ends[1]])->middle == middle;
+      sound = sound && !is_corner[middle];
+      if (edges->apart)
+        sound = sound && vsc_edges_find(edges, corner[ends[0]], corner[ends[1]])->middle == middle;
     }
     if (!sound) blame_element(&apart, mesh, e);
   }
   vsc_free(is_corner);
-  vsc_edges_free(&edges);
   if (status != VSC_OK) return status;
   return refuse(&apart, name, "not conforming, with a node in the middle of an edge that is not its "
                 "neighbours':", "give each edge one middle node, or mesh again", error);
@@ -328,6 +352,8 @@ static void drop_loose_triangles(vsc_mesh *mesh, const uint8_t *used, const vsc_
 static void drop_unused_nodes(vsc_mesh *mesh, const uint8_t *used, uint32_t *place)
 {
   size_t kept = 0;
+  mesh->report.unused_nodes = 0;
+  if (memchr(used, 0, mesh->node_count) == NULL) return;
   for (size_t i = 0; i < mesh->node_count; i++) {
     place[i] = (uint32_t)kept;
     if (!used[i]) continue;
@@ -345,39 +371,33 @@ static void drop_unused_nodes(vsc_mesh *mesh, const uint8_t *used, uint32_t *pla
   mesh->node_count = kept;
 }
 
-static vsc_status drop_unused(vsc_mesh *mesh, const uint8_t *used, vsc_error *error)
+// `edges`: those of quadratic elements, else none.
+static vsc_status drop_unused(vsc_mesh *mesh, const uint8_t *used, const vsc_edges *edges, vsc_error *error)
 {
   uint8_t *keep = NULL;
   uint32_t *place = NULL;
-  vsc_edges edges = {0};
   const bool quadratic = vsc_mesh_is_quadratic(mesh);
   vsc_status status = VSC_OK;
   vsc_free(mesh->triangle_mid);
   mesh->triangle_mid = NULL;
-  if (quadratic) status = vsc_edges_list(mesh, &edges, error);
-  if (status == VSC_OK &&
-      (!VSC_NEW(keep, mesh->triangle_count) || !VSC_NEW(place, mesh->node_count) ||
-       (quadratic && !VSC_NEW(mesh->triangle_mid, 3 * mesh->triangle_count))))
+  if (!VSC_NEW(keep, mesh->triangle_count) || !VSC_NEW(place, mesh->node_count) ||
+      (quadratic && !VSC_NEW(mesh->triangle_mid, 3 * mesh->triangle_count)))
     status = vsc_fail_memory(error, "the mesh's node numbers");
   if (status == VSC_OK) {
-    drop_loose_triangles(mesh, used, quadratic ? &edges : NULL, keep);
+    drop_loose_triangles(mesh, used, quadratic ? edges : NULL, keep);
     drop_unused_nodes(mesh, used, place);
   }
-  vsc_edges_free(&edges);
   vsc_free(keep);
   vsc_free(place);
   return status;
 }
 
-static vsc_status check_shapes(vsc_mesh *mesh, const char *name, vsc_error *error)
+static vsc_status check_shapes(vsc_mesh *mesh, const char *name, vsc_edges *edges, vsc_error *error)
 {
   if (mesh->element_count == 0) return check_triangles(mesh, name, error);
   vsc_status status = check_elements(mesh, name, error);
-  if (status != VSC_OK) return status;
-  turn_left_handed(mesh);
-  status = vsc_mesh_check_folds(mesh, name, error);
   if (status == VSC_OK && has_unlike_faces(mesh)) status = check_conforming(mesh, name, error);
-  if (status == VSC_OK && has_quadratic(mesh)) status = check_middles(mesh, name, error);
+  if (status == VSC_OK && has_quadratic(mesh)) status = check_middles(mesh, name, edges, error);
   return status;
 }
 
@@ -395,11 +415,13 @@ vsc_status vsc_mesh_clean(vsc_mesh *mesh, const char *name, vsc_error *error)
   if (status != VSC_OK) return status;
 
   uint8_t *used;
+  vsc_edges edges = {0};
   if (!VSC_NEW(used, mesh->node_count)) return vsc_fail_memory(error, "the mesh's node numbers");
   mark_used(mesh, used);
   status = check_nodes(mesh, used, name, error);
-  if (status == VSC_OK) status = check_shapes(mesh, name, error);
-  if (status == VSC_OK) status = drop_unused(mesh, used, error);
+  if (status == VSC_OK) status = check_shapes(mesh, name, &edges, error);
+  if (status == VSC_OK) status = drop_unused(mesh, used, &edges, error);
+  vsc_edges_free(&edges);
   vsc_free(used);
   return status;
 }

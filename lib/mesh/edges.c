@@ -32,13 +32,20 @@ vsc_status vsc_edges_list(const vsc_mesh *mesh, vsc_edges *edges, vsc_error *err
                                                   middle < 0 ? VSC_NO_MIDDLE : corner[middle]);
     }
   }
-  if (!vsc_sort(edges->items, count, sizeof *edges->items / sizeof(uint32_t), 3)) {
+  if (!vsc_sort(edges->items, count, sizeof *edges->items / sizeof(uint32_t), 2)) {
     vsc_edges_free(edges);
     return vsc_fail_memory(error, "the mesh's edges");
   }
-  for (size_t k = 0; k < count; k++)
-    if (kept == 0 || compare_ends(&edges->items[kept - 1], &edges->items[k]) != 0)
-      edges->items[kept++] = edges->items[k];
+  for (size_t k = 0; k < count; k++) {
+    const vsc_edge edge = edges->items[k];
+    vsc_edge *last = kept == 0 ? NULL : &edges->items[kept - 1];
+    if (last == NULL || compare_ends(last, &edge) != 0) {
+      edges->items[kept++] = edge;
+      continue;
+    }
+    edges->apart = edges->apart || last->middle != edge.middle;
+    if (edge.middle < last->middle) last->middle = edge.middle;
+  }
   edges->count = kept;
   return VSC_OK;
 }

@@ -3,6 +3,8 @@
 #ifndef VSC_MESH_EDGES_H
 #define VSC_MESH_EDGES_H
 
+#include <stdbool.h>
+
 #include "mesh/mesh.h"
 
 #define VSC_NO_MIDDLE UINT32_MAX  // what an edge of a linear element has in its middle
@@ -15,6 +17,7 @@ typedef struct vsc_edge {
 typedef struct vsc_edges {
   size_t count;
   vsc_edge *items;  // count, by low, then high; owned
+  bool apart;       // elements disagree on the middle of an edge
 } vsc_edges;
 
 // Lists the edges of all elements. Where neighbours disagree on the middle of an edge it is that of the

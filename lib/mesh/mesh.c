@@ -8,6 +8,7 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
+#include "mesh/jacobian.h"
 
 vsc_mesh *vsc_mesh_create_cells(size_t nodes, size_t elements, const uint8_t *kinds,
                                 size_t triangles)
@@ -160,30 +161,31 @@ static double flux(const double *at[VSC_MOST_CORNERS], int i, int j, int k)
   return 6 * vsc_tet_volume(at[0], at[i], at[j], at[k]);
 }
 
-double vsc_mesh_jacobian(const vsc_mesh *mesh, size_t element, const vsc_cell_rule *rule, int q)
+VSC_CLONED void vsc_mesh_jacobians(const vsc_mesh *mesh, size_t element, const vsc_cell_rule *rule,
+                                   double det[VSC_MOST_POINTS])
 {
-  const uint32_t *corner = vsc_mesh_corners(mesh, element);
-  double J[3][3] = {{0}}, normal[3];
-  for (int i = 0; i < vsc_mesh_kind(mesh, element)->corners; i++)
-    for (int k = 0; k < 3; k++)
-      for (int a = 0; a < 3; a++)
-        J[k][a] += rule->D[q][k][i] * mesh->nodes[3 * (size_t)corner[i] + (size_t)a];
-  vsc_cross(J[0], J[1], normal);
-  return vsc_dot(normal, J[2]);
+  const int corners = vsc_mesh_kind(mesh, element)->corners;
+  vsc_four x[VSC_MOST_CORNERS];
+  double J[3][4], normal[3];
+  vsc_cell_places(mesh->nodes, vsc_mesh_corners(mesh, element), corners, x);
+  for (int q = 0; q < rule->points; q++) {
+    vsc_cell_jacobian(rule, q, corners, x, J);
+    vsc_cross(J[0], J[1], normal);
+    det[q] = vsc_dot(normal, J[2]);
+  }
 }
 
-static double sum_of_points(const vsc_mesh *mesh, size_t element)
+static double sum_of_points(const vsc_mesh *mesh, size_t element, const vsc_cell_rule *rule)
 {
-  const vsc_cell_rule rule = vsc_cell_rule_of((vsc_cell)mesh->kinds[element]);
-  double volume = 0;
-  for (int q = 0; q < rule.points; q++)
-    volume += rule.weight[q] * vsc_mesh_jacobian(mesh, element, &rule, q);
+  double volume = 0, det[VSC_MOST_POINTS];
+  vsc_mesh_jacobians(mesh, element, rule, det);
+  for (int q = 0; q < rule->points; q++) volume += rule->weight[q] * det[q];
   return volume;
 }
 
-double vsc_mesh_element_volume(const vsc_mesh *mesh, size_t element)
+double vsc_mesh_volume_by(const vsc_mesh *mesh, size_t element, const vsc_cell_rule *rule)
 {
-  if (mesh->kinds[element] == VSC_TET10) return sum_of_points(mesh, element);
+  if (mesh->kinds[element] == VSC_TET10) return sum_of_points(mesh, element, rule);
   const vsc_cell_kind *kind = vsc_mesh_kind(mesh, element);
   const uint32_t *corner = vsc_mesh_corners(mesh, element);
   const double *at[VSC_MOST_CORNERS];
@@ -201,10 +203,18 @@ double vsc_mesh_element_volume(const vsc_mesh *mesh, size_t element)
   return volume / 6;
 }
 
+double vsc_mesh_element_volume(const vsc_mesh *mesh, size_t element)
+{
+  if (mesh->kinds[element] != VSC_TET10) return vsc_mesh_volume_by(mesh, element, NULL);
+  const vsc_cell_rule rule = vsc_cell_rule_of(VSC_TET10);
+  return vsc_mesh_volume_by(mesh, element, &rule);
+}
+
 double vsc_mesh_element_size(const vsc_mesh *mesh)
 {
+  const vsc_cell_rule rule = vsc_cell_rule_of(VSC_TET10);
   double volume = 0;
-  for (size_t e = 0; e < mesh->element_count; e++) volume += vsc_mesh_element_volume(mesh, e);
+  for (size_t e = 0; e < mesh->element_count; e++) volume += vsc_mesh_volume_by(mesh, e, &rule);
   return cbrt(volume / (double)mesh->element_count);
 }
 

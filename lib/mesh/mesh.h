@@ -141,13 +141,27 @@ vsc_status vsc_mesh_from_arrays(size_t node_count, const double *nodes, size_t e
 // vsc_mesh_clean does; for meshes whose nodes were moved since.
 vsc_status vsc_mesh_check_folds(const vsc_mesh *mesh, const char *name, vsc_error *error);
 
-// det J at point `q` of the rule of the element's kind, J_ka = sum_i d N_i / d xi_k x_ia, mm^3.
-double vsc_mesh_jacobian(const vsc_mesh *mesh, size_t element, const vsc_cell_rule *rule, int q);
+// det J at the points of the rule of the element's kind, J_ka = sum_i d N_i / d xi_k x_ia, mm^3.
+void vsc_mesh_jacobians(const vsc_mesh *mesh, size_t element, const vsc_cell_rule *rule,
+                        double det[VSC_MOST_POINTS]);
 
 // The volume of an element, mm^3, exact for straight edges: the flux through its faces, each
 // four-cornered face being the mean of its two pairs of triangles; of a quadratic tet the sum over
 // the points of vsc_cell_rule_of, as a model has it.
 double vsc_mesh_element_volume(const vsc_mesh *mesh, size_t element);
+
+// The same, for who has the rule of the element's kind at hand.
+double vsc_mesh_volume_by(const vsc_mesh *mesh, size_t element, const vsc_cell_rule *rule);
+
+// For passes over all elements: asks for the nodes of one that comes some elements behind `element`, which lie anywhere
+// where a mesh comes in random order.
+static inline void vsc_mesh_prefetch(const vsc_mesh *mesh, size_t element)
+{
+  enum { AHEAD = 16 };
+  if (element + AHEAD >= mesh->element_count) return;
+  for (size_t i = mesh->start[element + AHEAD]; i < mesh->start[element + AHEAD + 1]; i++)
+    __builtin_prefetch(mesh->nodes + 3 * (size_t)mesh->corners[i]);
+}
 
 // The size of the elements: (volume/elements)^(1/3), mm; NAN of a surface.
 double vsc_mesh_element_size(const vsc_mesh *mesh);

@@ -8,6 +8,7 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
+#include "mesh/jacobian.h"
 #include "mesh/topology.h"
 #include "model/mixture.h"
 #include "model/terms.h"
@@ -136,27 +137,25 @@ static void corners_of(const vsc_mesh *mesh, size_t element, double x[VSC_MOST_C
     memcpy(x[c], mesh->nodes + 3 * (size_t)corner[c], sizeof x[c]);
 }
 
-void vsc_lumped_volumes(const vsc_mesh *mesh, const vsc_cell_rule *rule, size_t element,
-                        double volumes[VSC_MOST_CORNERS])
+VSC_CLONED void vsc_lumped_volumes(const vsc_mesh *mesh, const vsc_cell_rule *rule, size_t element,
+                                   double volumes[VSC_MOST_CORNERS])
 {
-  double x[VSC_MOST_CORNERS][3];
-  corners_of(mesh, element, x);
+  vsc_four x[VSC_MOST_CORNERS];
   const int corners = vsc_mesh_kind(mesh, element)->corners;
   for (int c = 0; c < corners; c++) volumes[c] = 0;
   if (mesh->kinds[element] == VSC_TET10) {
     // the row sums of corners would be negative: int N_c^2 dV, scaled
-    const double volume = vsc_mesh_element_volume(mesh, element);
+    const double volume = vsc_mesh_volume_by(mesh, element, rule);
     for (int c = 0; c < corners; c++) volumes[c] = volume * (c < 4 ? 1.0 / 36 : 4.0 / 27);
     return;
   }
+  vsc_cell_places(mesh->nodes, vsc_mesh_corners(mesh, element), corners, x);
   for (int q = 0; q < rule->points; q++) {
-    double h[3][3] = {{0}}, dual[3];
-    for (int k = 0; k < 3; k++)
-      for (int c = 0; c < corners; c++)
-        for (int i = 0; i < 3; i++) h[k][i] += rule->D[q][k][c] * x[c][i];
-    vsc_cross(h[1], h[2], dual);
-    for (int c = 0; c < corners; c++)
-      volumes[c] += rule->weight[q] * vsc_dot(h[0], dual) * rule->N[q][c];
+    double J[3][4], dual[3];
+    vsc_cell_jacobian(rule, q, corners, x, J);
+    vsc_cross(J[1], J[2], dual);
+    const double part = rule->weight[q] * vsc_dot(J[0], dual);
+    for (int c = 0; c < corners; c++) volumes[c] += part * rule->N[q][c];
   }
 }
 
@@ -273,6 +272,7 @@ static void lumped_masses(const vsc_mesh *mesh, const vsc_cell_rule rules[VSC_CE
   for (size_t e = 0; e < mesh->element_count; e++) {
     double volumes[VSC_MOST_CORNERS];
     const uint32_t *corner = vsc_mesh_corners(mesh, e);
+    vsc_mesh_prefetch(mesh, e);
     vsc_lumped_volumes(mesh, &rules[mesh->kinds[e]], e, volumes);
     for (int c = 0; c < vsc_mesh_kind(mesh, e)->corners; c++)
       masses[corner[c]] += density[e] * volumes[c];

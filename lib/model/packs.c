@@ -4,6 +4,7 @@
 
 #include "base/mem.h"
 #include "base/vec3.h"
+#include "mesh/jacobian.h"
 #include "model/paper.h"
 #include "model/patches.h"
 
@@ -53,8 +54,8 @@ static vsc_status fill_paper_data(const filling *fill, size_t element, const dou
   return VSC_OK;
 }
 
-static vsc_status fill_cell(const filling *fill, size_t element, const uint32_t *corner, size_t index, int lane,
-                            vsc_error *error)
+VSC_CLONED static vsc_status fill_cell(const filling *fill, size_t element, const uint32_t *corner, size_t index,
+                                       int lane, vsc_error *error)
 {
   static const double global_axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   vsc_model *model = fill->model;
@@ -63,17 +64,14 @@ static vsc_status fill_cell(const filling *fill, size_t element, const uint32_t 
   const double *frame = fill->axes ? vsc_axes_frame(fill->axes, element, 0) : global_axes;
   const size_t k = patch->first_pack + index, slot = VSC_WIDTH * k + (size_t)lane;
   vsc_frame *frames = (vsc_frame *)(uintptr_t)vsc_pack_frames(model, patch, k);
-  double x[VSC_MOST_CORNERS][3];
+  vsc_four x[VSC_MOST_CORNERS];
   const int corners = vsc_family_corners(patch->family);
-  for (int c = 0; c < corners; c++) {
-    memcpy(x[c], fill->mesh->nodes + 3 * (size_t)corner[c], sizeof x[c]);
-    nodes_of(fill, k)[c][lane] = (uint16_t)fill->local[corner[c]];
-  }
+  vsc_cell_places(fill->mesh->nodes, corner, corners, x);
+  for (int c = 0; c < corners; c++) nodes_of(fill, k)[c][lane] = (uint16_t)fill->local[corner[c]];
   for (int q = 0; q < rule->points; q++) {
-    double h[3][3] = {{0}}, T[3][3];
-    for (int i = 0; i < 3; i++)
-      for (int c = 0; c < corners; c++)
-        for (int d = 0; d < 3; d++) h[i][d] += rule->D[q][i][c] * x[c][d];
+    double J[3][4], h[3][3], T[3][3];
+    vsc_cell_jacobian(rule, q, corners, x, J);
+    for (int i = 0; i < 3; i++) memcpy(h[i], J[i], sizeof h[i]);
     const double *own = fill->axes ? vsc_axes_frame(fill->axes, element, q) : frame;
     frames[q].V[lane] = rule->weight[q] * vsc_stencil_frame(h, own, T);
     model->total_volume += frames[q].V[lane];
@@ -87,7 +85,9 @@ static vsc_status fill_cell(const filling *fill, size_t element, const uint32_t 
     for (int i = 0; i < 9; i++) smoothed->axes[i / 3][i % 3][lane] = frame[i];
   }
   if (patch->law_data == 0) return VSC_OK;
-  return fill_paper_data(fill, element, x, frame, index, lane, error);
+  double places[VSC_MOST_CORNERS][3];
+  for (int c = 0; c < corners; c++) memcpy(places[c], &x[c], sizeof places[c]);
+  return fill_paper_data(fill, element, places, frame, index, lane, error);
 }
 
 static void fill_spring(const filling *fill, const uint32_t *node, size_t index, int lane)

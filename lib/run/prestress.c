@@ -42,10 +42,14 @@ static vsc_status check_shape(const vsc_mesh *mesh, vsc_error *error)
 {
   vsc_cell_rule rules[VSC_CELLS];
   for (int kind = 0; kind < VSC_CELLS; kind++) rules[kind] = vsc_cell_rule_of((vsc_cell)kind);
-  for (size_t e = 0; e < mesh->element_count; e++)
-    for (int q = 0; q < rules[mesh->kinds[e]].points; q++)
-      if (!(vsc_mesh_jacobian(mesh, e, &rules[mesh->kinds[e]], q) > 0))
+  for (size_t e = 0; e < mesh->element_count; e++) {
+    const vsc_cell_rule *rule = &rules[mesh->kinds[e]];
+    double det[VSC_MOST_POINTS];
+    vsc_mesh_jacobians(mesh, e, rule, det);
+    for (int q = 0; q < rule->points; q++)
+      if (!(det[q] > 0))
         return vsc_fail(error, VSC_NUMERICAL, "element %u is inside out at rest", mesh->element_source[e]);
+  }
   return VSC_OK;
 }
 
