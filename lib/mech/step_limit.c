@@ -75,6 +75,22 @@ static vsc_wide gradient_products(const vsc_model *model, const vsc_patch *patch
   return sum;
 }
 
+// The same of each corner with itself.
+VSC_CLONED static void gradient_squares(const vsc_model *model, const vsc_patch *patch, size_t k, vsc_wide *squares)
+{
+  const int corners = vsc_family_corners(patch->family);
+  for (int i = 0; i < corners; i++) squares[i] = vsc_splat(0);
+  for (int q = 0; q < vsc_family_frames(model, patch->family); q++) {
+    const vsc_frame *frame = vsc_pack_frames(model, patch, k) + q;
+    const double(*D)[VSC_MOST_CORNERS] = model->rules[patch->family].D[q];
+    for (int i = 0; i < corners; i++)
+      for (int a = 0; a < 3; a++) {
+        const vsc_wide *T = frame->T[a], B = T[0] * D[0][i] + T[1] * D[1][i] + T[2] * D[2][i];
+        squares[i] += frame->V * B * B;
+      }
+  }
+}
+
 // What radial forces add to a corner of law PAPER, each bounded by all of them, mN/mm.
 static double radial_stiffness(const vsc_material *material, uint32_t family)
 {
@@ -131,9 +147,11 @@ static void give_cells(const receiver *to, const vsc_model *model, const vsc_pat
   for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++) {
     const vsc_wide modulus = stiffest(model, patch, k) + volume_moduli(model, patch, k) + damping;
     const uint16_t(*node)[VSC_WIDTH] = vsc_pack_nodes(model, patch, k);
+    vsc_wide squares[VSC_MOST_CORNERS];
+    gradient_squares(model, patch, k, squares);
     for (int i = 0; i < corners; i++)
       for (int j = first_partner(to, i); j <= last_partner(to, i, corners); j++) {
-        const vsc_wide square = gradient_products(model, patch, k, i, j);
+        const vsc_wide square = i == j ? squares[i] : gradient_products(model, patch, k, i, j);
         for (int l = 0; l < VSC_WIDTH; l++)
           if (model->mesh_element[VSC_WIDTH * k + (size_t)l] != VSC_NO_ELEMENT)
             give(to, model, patch, node[i][l], node[j][l], modulus[l] * square[l] + radial);
