@@ -126,8 +126,9 @@ static void add_part(vsc_parts *parts, uint32_t group, uint32_t source, const ui
   const size_t k = parts->count++;
   parts->group[k] = group;
   parts->source[k] = source;
-  memcpy(parts->nodes + parts->start[k], nodes, count * sizeof *nodes);
-  parts->start[k + 1] = parts->start[k] + count;
+  if (parts->own_nodes == NULL) return;
+  memcpy(parts->own_nodes + parts->own_start[k], nodes, count * sizeof *nodes);
+  parts->own_start[k + 1] = parts->own_start[k] + count;
 }
 
 static bool are_still(const uint8_t *still, const uint32_t *nodes, size_t count)
@@ -172,8 +173,10 @@ vsc_status vsc_parts_list(const vsc_mesh *mesh, const uint32_t *material_of, con
   }
   if (status == VSC_OK &&
       (!VSC_NEW(parts->group, count) || !VSC_NEW(parts->source, count) ||
-       !VSC_NEW(parts->start, count + 1) || !VSC_NEW(parts->nodes, nodes)))
+       (count > elements && (!VSC_NEW(parts->own_start, count + 1) || !VSC_NEW(parts->own_nodes, nodes)))))
     status = vsc_fail_memory(error, "the list of elements");
+  parts->start = count > elements ? parts->own_start : mesh->start;
+  parts->nodes = count > elements ? parts->own_nodes : mesh->corners;
   if (status == VSC_OK) {
     for (size_t e = 0; e < elements; e++)
       add_cell(parts, mesh, e, material_of[e], mixed[e] != 0, still);
@@ -191,7 +194,7 @@ void vsc_parts_free(vsc_parts *parts)
 {
   vsc_free(parts->group);
   vsc_free(parts->source);
-  vsc_free(parts->start);
-  vsc_free(parts->nodes);
+  vsc_free(parts->own_start);
+  vsc_free(parts->own_nodes);
   *parts = (vsc_parts){0};
 }

@@ -13,8 +13,10 @@ typedef struct vsc_parts {
   size_t count;
   uint32_t *group;   // count
   uint32_t *source;  // count: number of the element of the mesh, or of the triangle of its sheet
-  size_t *start;     // count + 1: part k has the nodes[start[k] .. start[k + 1] - 1]
-  uint32_t *nodes;   // of the mesh
+  const size_t *start;    // count + 1: part k has the nodes[start[k] .. start[k + 1] - 1]
+  const uint32_t *nodes;  // of the mesh; both are the mesh's own where all parts are its cells
+  size_t *own_start;      // else these
+  uint32_t *own_nodes;
   size_t material_count;
   const vsc_sheet *sheets;  // of the model's membranes; borrowed
 } vsc_parts;

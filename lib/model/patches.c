@@ -22,6 +22,9 @@ typedef struct cutter {
   uint32_t *nodes;       // of the mesh
   uint32_t *source;      // parts: vsc_parts.source in that order
   uint32_t *first_part;  // patch_count + 1: patch p has order[first_part[p] ...]
+  uint32_t *distinct;    // nodes of the mesh: those of each patch, in the order of first use
+  size_t room;           // for so many
+  size_t *first_distinct;  // patch_count + 1: patch p has distinct[first_distinct[p] ...]
   uint32_t *seen;        // mesh node -> the patch that touched it last
   uint32_t *patches_of;  // mesh node -> number of patches that touch it
   uint32_t *number;      // mesh node -> node
@@ -35,15 +38,44 @@ static size_t patch_size(size_t parts)
   return size < SMALLEST_PATCH ? SMALLEST_PATCH : size;
 }
 
-static void centre_of(const cutter *cut, size_t part, double centre[3])
+// Nodes of a mesh in random order lie anywhere: they are asked for so many parts or nodes ahead.
+enum { PARTS_AHEAD = 16, NODES_AHEAD = 64 };
+
+static void list_centres(const cutter *cut, double *centres)
 {
   const vsc_parts *parts = cut->parts;
-  const size_t first = parts->start[part], count = parts->start[part + 1] - first;
-  for (int i = 0; i < 3; i++) {
-    centre[i] = 0;
-    for (size_t c = 0; c < count; c++)
-      centre[i] += cut->mesh->nodes[3 * (size_t)parts->nodes[first + c] + i];
-    centre[i] /= (double)count;
+  const double *nodes = cut->mesh->nodes;
+  const size_t end = parts->start[parts->count];
+  for (size_t k = 0; k < parts->count; k++) {
+    const size_t first = parts->start[k], count = parts->start[k + 1] - first;
+    double centre[3] = {0};
+    for (size_t c = first; c < first + count; c++) {
+      if (c + NODES_AHEAD < end) __builtin_prefetch(nodes + 3 * (size_t)parts->nodes[c + NODES_AHEAD]);
+      for (int i = 0; i < 3; i++) centre[i] += nodes[3 * (size_t)parts->nodes[c] + (size_t)i];
+    }
+    for (size_t i = 0; i < 3; i++) centres[3 * k + i] = centre[i] / (double)count;
+  }
+}
+
+// The parts' nodes and sources in their new order.
+static void sort_parts(cutter *cut)
+{
+  const vsc_parts *parts = cut->parts;
+  for (size_t k = 0; k < parts->count; k++) {
+    if (k + 2 * PARTS_AHEAD < parts->count) {
+      __builtin_prefetch(parts->start + cut->order[k + 2 * PARTS_AHEAD]);
+      __builtin_prefetch(parts->source + cut->order[k + 2 * PARTS_AHEAD]);
+      __builtin_prefetch(parts->nodes + parts->start[cut->order[k + PARTS_AHEAD]]);
+    }
+    const size_t part = cut->order[k], first = parts->start[part];
+    const size_t count = parts->start[part + 1] - first;
+    uint32_t *to = cut->nodes + cut->place[k];
+    if (count == 4)
+      memcpy(to, parts->nodes + first, 4 * sizeof *to);  // of known size: no call
+    else
+      memcpy(to, parts->nodes + first, count * sizeof *to);
+    cut->source[k] = parts->source[part];
+    cut->place[k + 1] = cut->place[k] + count;
   }
 }
 
@@ -52,19 +84,32 @@ static vsc_status order_parts(cutter *cut, vsc_error *error)
   const vsc_parts *parts = cut->parts;
   double *centres;
   if (!VSC_NEW(centres, 3 * parts->count)) return vsc_fail_memory(error, "element centres");
-  for (size_t k = 0; k < parts->count; k++) centre_of(cut, k, centres + 3 * k);
+  list_centres(cut, centres);
   const vsc_status status =
       vsc_order_hilbert(parts->count, centres, parts->group, cut->order, error);
   vsc_free(centres);
-  if (status != VSC_OK) return status;
-  for (size_t k = 0; k < parts->count; k++) {
-    const size_t part = cut->order[k], first = parts->start[part];
-    const size_t count = parts->start[part + 1] - first;
-    memcpy(cut->nodes + cut->place[k], parts->nodes + first, count * sizeof *cut->nodes);
-    cut->source[k] = parts->source[part];
-    cut->place[k + 1] = cut->place[k] + count;
+  if (status == VSC_OK) sort_parts(cut);
+  return status;
+}
+
+static uint32_t group_at(const cutter *cut, size_t k)
+{
+  return cut->parts->group[cut->order[k]];
+}
+
+// The first of the ordered parts behind `start` that is of another group.
+static size_t end_of_group(const cutter *cut, size_t start)
+{
+  const uint32_t group = group_at(cut, start);
+  size_t low = start + 1, high = cut->parts->count;
+  while (low < high) {
+    const size_t middle = low + (high - low) / 2;
+    if (group_at(cut, middle) == group)
+      low = middle + 1;
+    else
+      high = middle;
   }
-  return VSC_OK;
+  return low;
 }
 
 // Cuts the ordered parts at changes of group and after patch_size parts. With first_part NULL only
@@ -72,15 +117,12 @@ static vsc_status order_parts(cutter *cut, vsc_error *error)
 static size_t cut_patches(const cutter *cut, uint32_t *first_part)
 {
   const size_t parts = cut->parts->count, size = patch_size(parts);
-  const uint32_t *group = cut->parts->group;
-  size_t patches = 0, start = 0;
-  for (size_t k = 1; k <= parts; k++) {
-    const bool ends =
-        k == parts || k - start == size || group[cut->order[k]] != group[cut->order[start]];
-    if (!ends) continue;
+  size_t patches = 0, group_end = 0;
+  for (size_t start = 0, end; start < parts; start = end) {
+    if (start == group_end) group_end = end_of_group(cut, start);
+    end = group_end - start > size ? start + size : group_end;
     if (first_part) first_part[patches] = (uint32_t)start;
     patches++;
-    start = k;
   }
   if (first_part) first_part[patches] = (uint32_t)parts;
   return patches;
@@ -92,15 +134,37 @@ static size_t first_place(const cutter *cut, size_t p)
   return cut->place[cut->first_part[p]];
 }
 
-static void count_patches_of_nodes(cutter *cut, size_t patches)
+// Room for `more` distinct nodes behind `count`.
+static bool make_room(cutter *cut, size_t count, size_t more)
 {
+  void *distinct = cut->distinct;
+  if (count + more <= cut->room) return true;
+  const size_t longer = 2 * cut->room + more;
+  if (!vsc_grow(&distinct, count, longer, sizeof *cut->distinct)) return false;
+  cut->distinct = distinct;
+  cut->room = longer;
+  return true;
+}
+
+// Lists the nodes of each patch, and counts the patches of each node.
+static vsc_status list_distinct(cutter *cut, size_t patches, vsc_error *error)
+{
+  size_t count = 0;
   memset(cut->seen, 0xff, cut->mesh->node_count * sizeof *cut->seen);
-  for (size_t p = 0; p < patches; p++)
-    for (size_t i = first_place(cut, p); i < first_place(cut, p + 1); i++) {
+  if (!VSC_NEW(cut->first_distinct, patches + 1)) return vsc_fail_memory(error, "the nodes of patches");
+  for (size_t p = 0; p < patches; p++) {
+    const size_t first = first_place(cut, p), end = first_place(cut, p + 1);
+    if (!make_room(cut, count, end - first)) return vsc_fail_memory(error, "the nodes of patches");
+    for (size_t i = first; i < end; i++) {
       const uint32_t node = cut->nodes[i];
-      if (cut->seen[node] != p) cut->patches_of[node]++;
+      if (cut->seen[node] == p) continue;
       cut->seen[node] = (uint32_t)p;
+      cut->patches_of[node]++;
+      cut->distinct[count++] = node;
     }
+    cut->first_distinct[p + 1] = count;
+  }
+  return VSC_OK;
 }
 
 // Numbers the nodes that belong to one patch, patch by patch, then the shared ones, each kind in
@@ -112,8 +176,8 @@ static void number_nodes(cutter *cut, vsc_model *model)
   for (int shared = 0; shared < 2; shared++) {
     for (size_t p = 0; p < model->patch_count; p++) {
       if (!shared) model->patches[p].first_node = next;
-      for (size_t i = first_place(cut, p); i < first_place(cut, p + 1); i++) {
-        const uint32_t node = cut->nodes[i];
+      for (size_t i = cut->first_distinct[p]; i < cut->first_distinct[p + 1]; i++) {
+        const uint32_t node = cut->distinct[i];
         if (cut->number[node] != UINT32_MAX || (cut->patches_of[node] > 1) != shared) continue;
         model->mesh_node[next] = node;
         cut->number[node] = next++;
@@ -130,17 +194,15 @@ static void number_nodes(cutter *cut, vsc_model *model)
 }
 
 // Lists the shared nodes of each patch; with shared NULL only counts them.
-static void list_shared(cutter *cut, vsc_model *model)
+static void list_shared(const cutter *cut, vsc_model *model)
 {
   size_t place = 0;
-  memset(cut->seen, 0xff, cut->mesh->node_count * sizeof *cut->seen);
   for (size_t p = 0; p < model->patch_count; p++) {
     vsc_patch *patch = &model->patches[p];
     patch->first_shared = (uint32_t)place;
-    for (size_t i = first_place(cut, p); i < first_place(cut, p + 1); i++) {
-      const uint32_t node = cut->nodes[i];
-      if (cut->patches_of[node] == 1 || cut->seen[node] == p) continue;
-      cut->seen[node] = (uint32_t)p;
+    for (size_t i = cut->first_distinct[p]; i < cut->first_distinct[p + 1]; i++) {
+      const uint32_t node = cut->distinct[i];
+      if (cut->patches_of[node] == 1) continue;
       if (model->shared) model->shared[place] = cut->number[node];
       place++;
     }
@@ -181,7 +243,7 @@ static void start_patches(const cutter *cut, vsc_model *model)
 {
   for (size_t p = 0; p < model->patch_count; p++) {
     const uint32_t count = cut->first_part[p + 1] - cut->first_part[p];
-    const uint32_t group = cut->parts->group[cut->order[cut->first_part[p]]];
+    const uint32_t group = group_at(cut, cut->first_part[p]);
     vsc_patch *patch = &model->patches[p];
     patch->family = vsc_parts_family(cut->parts, group);
     patch->material = vsc_parts_material(cut->parts, group);
@@ -250,7 +312,8 @@ static vsc_status cut_and_fill(cutter *cut, const vsc_axes *axes, vsc_model *mod
     return vsc_fail_memory(error, "patches");
   cut_patches(cut, cut->first_part);
   start_patches(cut, model);
-  count_patches_of_nodes(cut, model->patch_count);
+  status = list_distinct(cut, model->patch_count, error);
+  if (status != VSC_OK) return status;
   for (size_t n = 0; n < nodes; n++)
     if (cut->patches_of[n] == 0)
       return vsc_fail(error, VSC_INPUT,
@@ -291,6 +354,8 @@ vsc_status vsc_patches_build(const vsc_mesh *mesh, const vsc_axes *axes, const v
   vsc_free(cut.nodes);
   vsc_free(cut.source);
   vsc_free(cut.first_part);
+  vsc_free(cut.distinct);
+  vsc_free(cut.first_distinct);
   vsc_free(cut.seen);
   vsc_free(cut.patches_of);
   vsc_free(cut.number);
