@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Edge-smoothed tets: the edges' frames, their energies, the ledger with activity, the bound of the
 // step. Gradients, balances, patch tests and tangents are in test_mech_kinds.c and test_mech_tangent.c.
+#include "base/hash.h"
+#include "base/parallel.h"
 #include "mech/step_limit.h"
 #include "random_body.h"
 #include "solve/explicit.h"
@@ -72,6 +74,57 @@ static void edges_have_the_mean_axes_of_their_tets(void **state)
         assert_close(fabs(dot), 1, 0, 1e-14);
       }
   body_close(&body);
+}
+
+// Three tets of a tissue each, one edge of the middle one being the first's, the opposite one the last's: the tissues
+// have six edges each, though in the order of nodes the first's last edge is the second's first.
+static void tissues_have_edges_of_their_own(void **state)
+{
+  (void)state;
+  static const double nodes[24] = {-1, 0, 1, -1, 1, -1, 0, 0, 0, 0, 1, 0, 1, 0, 1, 1, 1, -1, 3, 0, 0, 3, 1, 0};
+  static const uint32_t tets[12] = {0, 1, 2, 3, 2, 3, 4, 5, 4, 5, 6, 7};
+  vsc_mesh *mesh = NULL;
+  vsc_material_def materials[3];
+  random_body body;
+  assert_int_equal(vsc_mesh_from_arrays(8, nodes, 3, tets, &mesh, NULL), VSC_OK);
+  vsc_array *region = vsc_arrays_add(&mesh->element_data, "region", 1, 3);
+  body_define(&body, mesh, NULL, VSC_ACTIVE_NONE, VSC_VOLUME_ELEMENT);
+  for (int m = 0; m < 3; m++) {
+    region->values[m] = m + 1;
+    materials[m] = body.materials[0];
+    materials[m].regions[0] = m + 1;
+    vsc_copy_name(materials[m].name, (const char *[]){"first", "second", "third"}[m]);
+  }
+  body.definition.materials = materials;
+  body.definition.material_count = 3;
+  body.definition.tets = VSC_TETS_SMOOTHED;
+  body_build(&body);
+  assert_int_equal(body.model->smoothing.edge_count, 18);
+  body_close(&body);
+}
+
+// Everything of the model's edges, whose frames several threads make.
+static void edges_have_the_same_bits_on_any_number_of_threads(void **state)
+{
+  (void)state;
+  uint64_t alone = 0;
+  for (int threads = 1; threads <= 3; threads++) {
+    random_body body;
+    vsc_parallel_set_threads(threads);
+    open_smoothed(&body, 8, VSC_ACTIVE_TENSION, 10);
+    const vsc_smoothing *edges = &body.model->smoothing;
+    const size_t places = VSC_WIDTH * edges->pack_count, entries = edges->start[places];
+    assert_true(places > 3000);
+    uint64_t hash = vsc_hash(body.model->hash, edges->frames, edges->pack_count * sizeof *edges->frames);
+    hash = vsc_hash(hash, edges->start, (places + 1) * sizeof *edges->start);
+    hash = vsc_hash(hash, edges->slot, entries * sizeof *edges->slot);
+    hash = vsc_hash(hash, edges->weight, entries * sizeof *edges->weight);
+    for (size_t e = 0; e < places; e++) assert_true(edges->start[e + 1] > edges->start[e]);
+    if (threads == 1) alone = hash;
+    assert_true(hash == alone);
+    body_close(&body);
+  }
+  vsc_parallel_set_threads(0);
 }
 
 // ---- energies
@@ -160,6 +213,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(edges_share_the_volume_of_their_tissue),
       cmocka_unit_test(edges_have_the_mean_axes_of_their_tets),
+      cmocka_unit_test(tissues_have_edges_of_their_own),
+      cmocka_unit_test(edges_have_the_same_bits_on_any_number_of_threads),
       cmocka_unit_test(smoothed_energy_is_the_plain_one_where_strain_is_constant),
       cmocka_unit_test(the_ledger_balances_while_tissue_contracts),
       cmocka_unit_test(the_step_bound_holds),

@@ -4,16 +4,19 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/parallel.h"
 #include "base/sort.h"
 #include "base/vec3.h"
 #include "mesh/axes.h"
 #include "model/terms.h"
 
-// An edge of a tet, ordered by material, then by its nodes, then by the tet.
+// An edge of a tet. They are listed by material, then by their nodes, then by the tet.
 typedef struct incidence {
-  uint32_t material, low, high, slot;
-  uint32_t patch, place;  // place: which of the tet's edges
+  uint32_t low, high, slot;
+  uint32_t where;  // 8 times the tet's patch, and which of its edges it is
 } incidence;
+
+enum { EDGES_PER_PIECE = 1024 };
 
 void vsc_smoothing_free(vsc_smoothing *smoothing)
 {
@@ -27,31 +30,34 @@ void vsc_smoothing_free(vsc_smoothing *smoothing)
   *smoothing = (vsc_smoothing){0};
 }
 
-static bool same_edge(const incidence *a, const incidence *b)
+static const vsc_patch *patch_of(const vsc_model *model, const incidence *tet)
 {
-  return a->material == b->material && a->low == b->low && a->high == b->high;
+  return &model->patches[tet->where / 8];
+}
+
+static bool same_edge(const vsc_model *model, const incidence *a, const incidence *b)
+{
+  return a->low == b->low && a->high == b->high && patch_of(model, a)->material == patch_of(model, b)->material;
 }
 
 // The tet behind an incidence: its pack, and its rest volume.
 static vsc_smoothed_pack *pack_of(const vsc_model *model, const incidence *tet)
 {
-  return (vsc_smoothed_pack *)(uintptr_t)vsc_pack_smoothed(model, &model->patches[tet->patch],
-                                                           tet->slot / VSC_WIDTH);
+  return (vsc_smoothed_pack *)(uintptr_t)vsc_pack_smoothed(model, patch_of(model, tet), tet->slot / VSC_WIDTH);
 }
 
 static double volume_of(const vsc_model *model, const incidence *tet)
 {
-  const vsc_patch *patch = &model->patches[tet->patch];
-  return vsc_pack_frames(model, patch, tet->slot / VSC_WIDTH)->V[tet->slot % VSC_WIDTH];
+  return vsc_pack_frames(model, patch_of(model, tet), tet->slot / VSC_WIDTH)->V[tet->slot % VSC_WIDTH];
 }
 
-// The edges of all smoothed tets, by slot; with `list` NULL only their number.
-static size_t list_incidences(const vsc_model *model, incidence *list)
+// The edges of a material's smoothed tets, by slot; with `list` NULL only their number.
+static size_t list_incidences(const vsc_model *model, uint32_t material, incidence *list)
 {
   size_t count = 0;
   for (uint32_t p = 0; p < model->patch_count; p++) {
     const vsc_patch *patch = &model->patches[p];
-    if (!patch->smoothed) continue;
+    if (!patch->smoothed || patch->material != material) continue;
     for (size_t k = patch->first_pack; k < patch->first_pack + patch->pack_count; k++)
       for (uint32_t l = 0; l < VSC_WIDTH; l++) {
         const uint32_t slot = VSC_WIDTH * (uint32_t)k + l;
@@ -62,7 +68,7 @@ static size_t list_incidences(const vsc_model *model, incidence *list)
           const int *ends = vsc_cells[VSC_TET].edges[e];
           const uint32_t a = vsc_node_of(model, patch, node[ends[0]][l]);
           const uint32_t b = vsc_node_of(model, patch, node[ends[1]][l]);
-          list[count] = (incidence){patch->material, a < b ? a : b, a < b ? b : a, slot, p, e};
+          list[count] = (incidence){a < b ? a : b, a < b ? b : a, slot, 8 * p + e};
         }
       }
   }
@@ -71,26 +77,26 @@ static size_t list_incidences(const vsc_model *model, incidence *list)
 
 // Where each edge's incidences begin: four to a pack, those of one material in packs of their own, the
 // last of which repeat their last edge. Returns the places.
-static size_t list_edges(const incidence *list, size_t count, uint32_t *first,
-                         vsc_smoothing *smoothing)
+static size_t list_edges(vsc_model *model, const incidence *list, size_t count, uint32_t *first)
 {
   size_t places = 0;
   for (size_t i = 0; i < count; i++) {
-    if (i > 0 && same_edge(&list[i - 1], &list[i])) continue;
-    if (i > 0 && list[i - 1].material != list[i].material)
+    if (i > 0 && same_edge(model, &list[i - 1], &list[i])) continue;
+    if (i > 0 && patch_of(model, &list[i - 1])->material != patch_of(model, &list[i])->material)
       for (; places % VSC_WIDTH != 0; places++) first[places] = first[places - 1];
     first[places++] = (uint32_t)i;
-    smoothing->edge_count++;
+    model->smoothing.edge_count++;
   }
   for (; places % VSC_WIDTH != 0; places++) first[places] = first[places - 1];
   return places;
 }
 
-static void cut_blocks(const incidence *list, const uint32_t *first, vsc_smoothing *smoothing)
+static void cut_blocks(vsc_model *model, const incidence *list, const uint32_t *first)
 {
+  vsc_smoothing *smoothing = &model->smoothing;
   vsc_edge_block *block = NULL;
   for (uint32_t k = 0; k < smoothing->pack_count; k++) {
-    const uint32_t material = list[first[VSC_WIDTH * k]].material;
+    const uint32_t material = patch_of(model, &list[first[VSC_WIDTH * k]])->material;
     if (block == NULL || block->material != material || block->pack_count == VSC_MOST_EDGE_PACKS) {
       block = &smoothing->blocks[smoothing->block_count++];
       *block = (vsc_edge_block){.material = material, .first_pack = k};
@@ -134,7 +140,7 @@ static void average_axes(const vsc_model *model, const incidence *tets, size_t c
   vsc_axes_complete(axis[0], found ? axis[1] : NULL, frame);
 }
 
-// One edge: its frame (V = 0 for a copy), and the tets that it averages, which are written from `at` on.
+// One edge: its frame (V = 0 for a copy), and the tets that it averages.
 static void fill_edge(vsc_model *model, const incidence *tets, size_t count, size_t edge, bool copy)
 {
   vsc_smoothing *smoothing = &model->smoothing;
@@ -150,55 +156,83 @@ static void fill_edge(vsc_model *model, const incidence *tets, size_t count, siz
     smoothing->weight[at + t] = weight;
     if (model->amplitude) amplitude += weight * model->amplitude[tets[t].slot];
     if (model->delay) delay += weight * model->delay[tets[t].slot];
-    if (!copy) pack_of(model, &tets[t])->edge[tets[t].place][tets[t].slot % VSC_WIDTH] = (uint32_t)edge;
+    if (!copy) pack_of(model, &tets[t])->edge[tets[t].where % 8][tets[t].slot % VSC_WIDTH] = (uint32_t)edge;
   }
   pack->V[l] = copy ? 0 : V;
   if (model->amplitude) smoothing->amplitude[edge] = amplitude;
   if (model->delay) smoothing->delay[edge] = delay;
-  smoothing->start[edge + 1] = (uint32_t)(at + count);
+}
+
+// What edges are filled from: the incidences, and where those of each begin.
+typedef struct filling {
+  vsc_model *model;
+  const incidence *list;
+  const uint32_t *first;
+  size_t places;
+} filling;
+
+static void fill_piece(void *context, size_t piece, int thread)
+{
+  (void)thread;
+  const filling *fill = context;
+  const uint32_t *first = fill->first, *start = fill->model->smoothing.start;
+  const size_t begin = EDGES_PER_PIECE * piece, last = begin + EDGES_PER_PIECE;
+  for (size_t e = begin; e < last && e < fill->places; e++)
+    fill_edge(fill->model, fill->list + first[e], start[e + 1] - start[e], e, e > 0 && first[e] == first[e - 1]);
 }
 
 static bool fill_smoothing(vsc_model *model, const incidence *list, size_t count,
                            const uint32_t *first, size_t places)
 {
   vsc_smoothing *smoothing = &model->smoothing;
-  // the copies that fill up a material's last pack list their tets again
-  size_t entries = 0;
-  for (size_t e = 0; e < places; e++)
-    for (size_t i = first[e]; i < count && same_edge(&list[first[e]], &list[i]); i++) entries++;
   smoothing->pack_count = places / VSC_WIDTH;
+  if (!VSC_NEW(smoothing->start, places + 1)) return false;
+  // the copies that fill up a material's last pack list their tets again
+  for (size_t e = 0; e < places; e++) {
+    size_t end = first[e];
+    while (end < count && same_edge(model, &list[first[e]], &list[end])) end++;
+    smoothing->start[e + 1] = smoothing->start[e] + (uint32_t)(end - first[e]);
+  }
+  const size_t entries = smoothing->start[places];
   if (!VSC_NEW(smoothing->frames, smoothing->pack_count) ||
-      !VSC_NEW(smoothing->blocks, smoothing->pack_count) || !VSC_NEW(smoothing->start, places + 1) ||
-      !VSC_NEW(smoothing->slot, entries) || !VSC_NEW(smoothing->weight, entries) ||
+      !VSC_NEW(smoothing->blocks, smoothing->pack_count) || !VSC_NEW(smoothing->slot, entries) ||
+      !VSC_NEW(smoothing->weight, entries) ||
       (model->amplitude && !VSC_NEW(smoothing->amplitude, places)) ||
       (model->delay && !VSC_NEW(smoothing->delay, places)))
     return false;
-  cut_blocks(list, first, smoothing);
-  for (size_t e = 0; e < places; e++) {
-    size_t end = first[e];
-    while (end < count && same_edge(&list[first[e]], &list[end])) end++;
-    fill_edge(model, list + first[e], end - first[e], e, e > 0 && first[e] == first[e - 1]);
-  }
+  cut_blocks(model, list, first);
+  filling fill = {model, list, first, places};
+  vsc_parallel_for((places + EDGES_PER_PIECE - 1) / EDGES_PER_PIECE, fill_piece, &fill);
   return true;
+}
+
+// The incidences of all materials, sorted; false when memory is short.
+static bool sort_incidences(const vsc_model *model, incidence *list)
+{
+  const size_t words = sizeof *list / sizeof(uint32_t);
+  bool good = true;
+  for (uint32_t m = 0; m < model->material_count && good; m++) {
+    const size_t count = list_incidences(model, m, list);
+    good = vsc_sort(list, count, words, 2);
+    list += count;
+  }
+  return good;
 }
 
 vsc_status vsc_terms_smoothing(vsc_model *model, vsc_error *error)
 {
-  const size_t count = list_incidences(model, NULL);
+  size_t count = 0;
   incidence *list;
   uint32_t *first = NULL;
   if (!model->terms.smoothed) return VSC_OK;
+  for (uint32_t m = 0; m < model->material_count; m++) count += list_incidences(model, m, NULL);
   if (count == 0)
     return vsc_fail(error, VSC_INPUT,
                     "tets: smoothed smooths linear tetrahedra, and the mesh has none: leave it out, or use a mesh of "
                     "them without mesh.order: 2");
-  bool good = VSC_NEW(list, count) && VSC_NEW(first, count + VSC_WIDTH * model->material_count);
-  if (good) {
-    list_incidences(model, list);
-    good = vsc_sort(list, count, sizeof *list / sizeof(uint32_t), 3);
-  }
-  if (good)
-    good = fill_smoothing(model, list, count, first, list_edges(list, count, first, &model->smoothing));
+  const bool good = VSC_NEW(list, count) && VSC_NEW(first, count + VSC_WIDTH * model->material_count) &&
+                    sort_incidences(model, list) &&
+                    fill_smoothing(model, list, count, first, list_edges(model, list, count, first));
   vsc_free(list);
   vsc_free(first);
   return good ? VSC_OK : vsc_fail_memory(error, "the edges of smoothed tets");
