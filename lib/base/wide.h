@@ -24,7 +24,8 @@ typedef double vsc_wide __attribute__((vector_size(VSC_LANES * sizeof(double))))
 typedef int64_t vsc_wide_mask __attribute__((vector_size(VSC_LANES * sizeof(int64_t))));
 
 // A function of loops over vectors, compiled for AVX2 too and picked when the program starts. All that it calls
-// with vectors must be inlined. (The thread sanitizer is not there yet when it is picked.)
+// with vectors must be inlined. (Not for sanitizers: nothing is, below, and that of threads is not there yet when it is
+// picked.)
 #if defined __x86_64__ && defined __GNUC__ && !defined __clang__ && !defined __SANITIZE_THREAD__ && \
     !defined __SANITIZE_ADDRESS__
 #define VSC_CLONED __attribute__((target_clones("avx2", "default")))
@@ -34,7 +35,7 @@ typedef int64_t vsc_wide_mask __attribute__((vector_size(VSC_LANES * sizeof(int6
 
 // Vectors never cross a real call: every function on them is inlined, but for sanitizers, whose checks would take
 // minutes to compile then (and calls stay within one source file and its instruction set).
-#ifdef __SANITIZE_ADDRESS__
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
 #define VSC_INLINE static inline
 #else
 #define VSC_INLINE static inline __attribute__((always_inline))
