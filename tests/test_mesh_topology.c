@@ -369,7 +369,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_tet_is_listed_at_its_nodes),
     cmocka_unit_test(neighbours_are_those_of_brute_force),
-    cmocka_unit_test(overlapping_tets_are_counted), cmocka_unit_test(folds_are_counted),
+    cmocka_unit_test(overlapping_tets_are_counted),
+    cmocka_unit_test(folds_are_counted),
     cmocka_unit_test(neighbours_in_a_hybrid_mesh),
     cmocka_unit_test(a_split_face_is_told),
     cmocka_unit_test(quadrilaterals_are_cut_through_their_smallest_node),

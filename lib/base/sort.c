@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/mem.h"
-
 #include "base/wide.h"
 
 enum { DIGIT = 11, WIDTH = 1 << DIGIT };  // bits of a digit at most, and its values

@@ -332,12 +332,13 @@ static void warn_overlaps(writer *w, const vsc_mesh *mesh)
          topology.crowded_faces, mesh->element_source[topology.crowded_element]);
   if (known && topology.one_sided_faces > 0)
     warn(w, "mesh: two elements lie on the same side of a face that they share, %zu times, as with element %u: the mesh is "
-         "folded there (elements that were inside out in it have been turned); mend it where it was made",
-         topology.one_sided_faces, mesh->element_source[topology.one_sided_element]);
+         "folded there%s; mend it where it was made",
+         topology.one_sided_faces, mesh->element_source[topology.one_sided_element],
+         mesh->report.turned_elements > 0 ? " (elements that were inside out in it have been turned)" : "");
   vsc_topology_free(&topology);
 }
 
-// Whether some elements came left-handed and others not: those that were inside out.
+// Whether some elements came left-handed and others not: the one or the other may have been inside out.
 static bool is_of_both_hands(const vsc_mesh *mesh)
 {
   return mesh->report.turned_elements > 0 && mesh->report.turned_elements < mesh->element_count;

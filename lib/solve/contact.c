@@ -149,6 +149,7 @@ static bool put_back(const vsc_model *model, vsc_state *state, uint32_t node, do
   double *x = state->x + 4 * (size_t)node, *v = state->v + 4 * (size_t)node;
   double normal[3], way[3], before[3], depth;
   const double gap = vsc_obstacle_gap(p->obstacle, p->point, x, normal);
+  // most nodes are outside, and need no length
   if (gap >= 0 || gap >= -ROUNDING * (model->element_size + vsc_norm(x))) return false;
   const double free = find_way(model, node, dt, p, x, v, gap, normal, way, &depth);
   if (free < LEAST_FREE) return false;  // held against the obstacle
@@ -213,7 +214,8 @@ static bool all_outside(const vsc_model *model, const vsc_state *state)
   atomic_bool near = false;
   for (size_t k = 0; k < model->obstacle_count && !near; k++) {
     const vsc_obstacle *obstacle = &model->obstacles[k];
-    outlook o = {.obstacle = obstacle, .x = state->x, .reach = (1 + 1e-12) * obstacle->radius * obstacle->radius, .near = &near};
+    outlook o = {.obstacle = obstacle, .x = state->x, .near = &near};
+    o.reach = (1 + 1e-12) * obstacle->radius * obstacle->radius;
     vsc_obstacle_place(obstacle, state->time, o.point);
     vsc_parallel_for((obstacle->node_count + NODES_PER_PIECE - 1) / NODES_PER_PIECE, look_out, &o);
   }

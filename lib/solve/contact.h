@@ -27,9 +27,9 @@ void vsc_contact_load(const vsc_model *model, vsc_state *state, uint32_t node,
                       const double impulse[3], double dt);
 
 // To be called when the positions of a step are settled, where obstacles have given impulses in it or at the end of the
-// row of steps before: the impulse J on a node works J . (v_0 + v)/2
-// with the middle velocities v_0 of the step before (state->former; of a first step what it began with) and v of this one,
-// which is how Stoermer-Verlet itself counts the work of forces; what of the obstacle's J . speed is not found there is lost.
+// row of steps before: the impulse J on a node works J . (v_0 + v)/2 with the middle velocities v_0 of the step before
+// (state->former; of a first step what it began with) and v of this one, which is how Stoermer-Verlet itself counts the
+// work of forces; what of the obstacle's J . speed is not found there is lost.
 void vsc_contact_account(const vsc_model *model, vsc_state *state);
 
 // To be called when a row of steps of dt has ended and velocities are those of its end: nodes that
